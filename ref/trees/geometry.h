@@ -1,0 +1,36 @@
+#pragma once
+
+// The surfaces of a scene behind two questions: what does this ray hit first, and does it hit anything?
+
+#include "ref/trees/ray.h"
+
+#include <optional>
+
+namespace ref {
+
+/// A scene's triangles and spheres, made ready for ray queries. Keeps a reference to the scene, which
+/// must outlive it.
+class Geometry {
+public:
+    explicit Geometry(const scenes::Scene& scene);
+    [[nodiscard]] const scenes::Scene& scene() const { return *scene_; }
+
+private:
+    const scenes::Scene* scene_;
+};
+
+/// The hit of smallest t; of several at the same t, that of the lowest primitive number.
+std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray);
+
+/// Whether the ray hits anything at all.
+bool occluded(const Geometry& geometry, const Ray& ray);
+
+/// The surface at `hit`, which must come from `intersect` on the same geometry and ray.
+SurfacePoint surface_point(const Geometry& geometry, const Ray& ray, const Hit& hit);
+
+/// `point.position` moved off the surface by just its error bound, to the side that `direction` (any
+/// length) points to: a ray from there cannot meet the surface that it leaves, nor one that coincides
+/// with it. No constant is involved, so scenes of any scale behave alike.
+Vec3 leave_surface(const SurfacePoint& point, const Vec3& direction);
+
+} // namespace ref

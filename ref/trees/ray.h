@@ -1,0 +1,39 @@
+#pragma once
+
+// Rays and what they find. A ray's direction need not have unit length: `t` counts in its multiples, so
+// that the segment from p to q is the ray (p, q - p) with t_max = 1.
+
+#include "scenes/scene.h"
+
+#include <cstdint>
+#include <limits>
+
+namespace ref {
+
+using scenes::Rgb;
+using scenes::Vec3;
+
+/// The points origin + t * direction with 0 < t < t_max.
+struct Ray {
+    Vec3 origin;
+    Vec3 direction;
+    double t_max = std::numeric_limits<double>::infinity();
+};
+
+/// Where a ray meets a primitive (numbered as by scenes::primitive_count).
+struct Hit {
+    double t;
+    std::uint32_t primitive;
+    Vec3 barycentric; // weights of the three vertices of a triangle; unused for a sphere
+};
+
+/// A point on a surface, in world space.
+struct SurfacePoint {
+    Vec3 position;
+    Vec3 error;  // bound on the rounding error of each coordinate of `position`
+    Vec3 normal; // unit geometric normal: by winding for a triangle, outward for a sphere
+    std::uint32_t primitive;
+    std::uint32_t material;
+};
+
+} // namespace ref
