@@ -1,0 +1,20 @@
+#pragma once
+
+// The axis-aligned bounding box of a scene's geometry.
+
+#include "scenes/scene.h"
+
+#include <optional>
+
+namespace scenes {
+
+/// Corners of an axis-aligned box; min <= max in each coordinate.
+struct Bounds {
+    Vec3 min;
+    Vec3 max;
+};
+
+/// The smallest box around all triangles and spheres; none if there are none.
+std::optional<Bounds> bounds(const Scene& scene);
+
+} // namespace scenes

@@ -1,0 +1,30 @@
+#pragma once
+
+// Reads COLLADA 1.4.1 files with the CMU462 technique profile: docs say which part of COLLADA that is at
+// the head of read_scene.cpp. Everything else that would change the picture is an error.
+
+#include "scenes/scene.h"
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace scenes {
+
+/// A file that cannot be rendered as it stands. what() is one line that names the place:
+/// `file.dae:12: <light id="Sun">: unknown kind <laser>`.
+class SceneError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Reads the scene in the COLLADA file at `path`. Throws SceneError if the file cannot be opened or
+/// read, or whenever parse_scene does.
+Scene read_scene(const std::filesystem::path& path);
+
+/// Reads the scene in `xml`, the bytes of a COLLADA file. `file_name` (a path is fine; the folder is
+/// dropped) begins every error message and, without its ending, becomes Scene::name. Throws SceneError.
+Scene parse_scene(std::string_view xml, const std::string& file_name);
+
+} // namespace scenes
