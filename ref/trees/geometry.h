@@ -14,9 +14,12 @@ class Geometry {
 public:
     explicit Geometry(const scenes::Scene& scene);
     [[nodiscard]] const scenes::Scene& scene() const { return *scene_; }
+    /// Of the box around all primitives: an upper bound on the distance between two points of surfaces.
+    [[nodiscard]] double diagonal() const { return diagonal_; }
 
 private:
     const scenes::Scene* scene_;
+    double diagonal_;
 };
 
 /// The hit of smallest t; of several at the same t, that of the lowest primitive number.

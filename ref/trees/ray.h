@@ -30,7 +30,7 @@ struct Hit {
 /// A point on a surface, in world space.
 struct SurfacePoint {
     Vec3 position;
-    Vec3 error;  // bound on the rounding error of each coordinate of `position`
+    Vec3 error;  // per coordinate, how far the surface that rays meet can be from `position`
     Vec3 normal; // unit geometric normal: by winding for a triangle, outward for a sphere
     std::uint32_t primitive;
     std::uint32_t material;

@@ -1,0 +1,42 @@
+// The program: chooses the subcommand, and turns every error into one line and an exit status.
+
+#include "cli/command.h"
+
+#include <exception>
+#include <iostream>
+#include <new>
+
+namespace {
+
+/// One line for a person: what CLI11 says beyond the first line is how to get help.
+int complain(std::string_view message)
+{
+    std::cerr << "plumbline: " << message.substr(0, message.find('\n')) << '\n';
+    return cli::bad_input;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App program("Plumbline: a reference for tree builders and bidirectional path tracers",
+                     "plumbline");
+    program.set_version_flag("--version", PLUMBLINE_VERSION);
+    program.require_subcommand(1);
+    program.footer("Exit status: 0 fine, 1 a check says no, 2 bad input or usage, 130 interrupted.");
+    cli::Work work;
+    cli::add_render_command(program, work);
+
+    try {
+        program.parse(argc, argv);
+        return work();
+    } catch (const CLI::Success& help) {
+        return program.exit(help);
+    } catch (const CLI::ParseError& error) {
+        return complain(std::string(error.what()) + " (plumbline --help lists what there is)");
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory");
+    } catch (const std::exception& error) {
+        return complain(error.what());
+    }
+}

@@ -1,0 +1,133 @@
+#pragma once
+
+// Reflection and refraction at a surface. Directions are unit vectors of the local frame, z = geometric
+// normal, and point away from the surface: wo to the previous vertex of the walk, wi to the next.
+
+#include "ref/transport/random.h"
+#include "ref/transport/sampling.h"
+#include "scenes/scene.h"
+
+#include <variant>
+
+namespace ref {
+
+/// What a walk carries: the eye walk gathers radiance, the light walk spreads power. Only refraction
+/// tells them apart [Veach 1997, sec. 5.2].
+enum class Transport { radiance, power };
+
+/// The outcome of sampling a BSDF for `wi`.
+struct BsdfSample {
+    Vec3 wi_local;
+    Rgb value;      // f |cos theta_i| / pdf: what the walk's throughput is multiplied with
+    double pdf_fwd; // of wi given wo, per solid angle; of choosing the lobe if `delta`
+    double pdf_rev; // of wo given wi, likewise
+    bool delta;     // the direction was certain once the lobe was chosen
+};
+
+/// Whether every direction that the material scatters into is certain: such a vertex can be joined to
+/// nothing, and neither can an emitter's surface, which scatters nothing.
+inline bool is_delta(const scenes::Material& material)
+{
+    return !std::holds_alternative<scenes::Lambertian>(material);
+}
+
+/// Fraction of unpolarised light that a dielectric boundary reflects; `cos_i` >= 0 on the side with
+/// index `eta_i`. Sets `cos_t` to the cosine of refraction, 0 under total reflection.
+/// [Fresnel's equations; Born & Wolf 1999, sec. 1.5.2]
+inline double fresnel(double cos_i, double eta_i, double eta_t, double& cos_t)
+{
+    const double sin_t = eta_i / eta_t * std::sqrt(std::max(0.0, 1.0 - cos_i * cos_i)); // Snell
+    cos_t = 0.0;
+    if (sin_t >= 1.0) return 1.0;
+    cos_t = std::sqrt(1.0 - sin_t * sin_t);
+    const double parallel = (eta_t * cos_i - eta_i * cos_t) / (eta_t * cos_i + eta_i * cos_t);
+    const double perpendicular = (eta_i * cos_i - eta_t * cos_t) / (eta_i * cos_i + eta_t * cos_t);
+    return (parallel * parallel + perpendicular * perpendicular) / 2.0;
+}
+
+/// The BSDF f(wo, wi) in sr^-1, without its delta lobes.
+inline Rgb evaluate_bsdf(const scenes::Material& material, const Vec3& wo_local, const Vec3& wi_local)
+{
+    const auto* lambertian = std::get_if<scenes::Lambertian>(&material);
+    if (lambertian == nullptr || wo_local.z * wi_local.z <= 0.0) return Rgb(0.0);
+    return lambertian->albedo * inverse_pi;
+}
+
+/// The density with which `sample_bsdf` picks `wi` given `wo`, per solid angle, without delta lobes.
+inline double pdf_solid_angle_bsdf(const scenes::Material& material, const Vec3& wo_local,
+                                   const Vec3& wi_local)
+{
+    if (is_delta(material) || wo_local.z * wi_local.z <= 0.0) return 0.0;
+    return std::abs(wi_local.z) * inverse_pi;
+}
+
+/// A Lambertian surface: cosine-distributed on the side of wo. f cos / pdf is just the albedo.
+inline BsdfSample sample_bsdf(const scenes::Lambertian& lambertian, const Vec3& wo, const Uniforms& u,
+                              Transport /*carried*/)
+{
+    Vec3 wi = sample_cosine_hemisphere(u[0], u[1]);
+    if (wo.z < 0.0) wi.z = -wi.z;
+    return {wi, lambertian.albedo, std::abs(wi.z) * inverse_pi, std::abs(wo.z) * inverse_pi, false};
+}
+
+inline BsdfSample sample_bsdf(const scenes::Mirror& mirror, const Vec3& wo, const Uniforms& /*u*/,
+                              Transport /*carried*/)
+{
+    return {Vec3(-wo.x, -wo.y, wo.z), mirror.reflectance, 1.0, 1.0, true};
+}
+
+/// Glass: reflects with the probability of Fresnel's reflectance, else refracts.
+inline BsdfSample sample_bsdf(const scenes::Glass& glass, const Vec3& wo, const Uniforms& u,
+                              Transport carried)
+{
+    const bool outside = wo.z > 0.0;
+    const double eta_i = outside ? 1.0 : glass.ior;
+    const double eta_t = outside ? glass.ior : 1.0;
+    double cos_t = 0.0;
+    const double reflected = fresnel(std::abs(wo.z), eta_i, eta_t, cos_t);
+    if (u[2] < reflected)
+        return {Vec3(-wo.x, -wo.y, wo.z), glass.reflectance, reflected, reflected, true};
+
+    const double eta = eta_i / eta_t;
+    const Vec3 wi(-eta * wo.x, -eta * wo.y, outside ? -cos_t : cos_t);
+    // Radiance is squeezed into a smaller solid angle on the denser side; power is not
+    // [Veach 1997, eq. 5.12 and sec. 5.2.2].
+    const double scale = carried == Transport::radiance ? eta * eta : 1.0;
+    return {glm::normalize(wi), glass.transmittance * scale, 1.0 - reflected, 1.0 - reflected, true};
+}
+
+inline BsdfSample sample_bsdf(const scenes::Emission& /*emission*/, const Vec3& wo,
+                              const Uniforms& /*u*/, Transport /*carried*/)
+{
+    return {wo, Rgb(0.0), 0.0, 0.0, true};
+}
+
+/// Draws wi given wo from the first three numbers of `u`. A value of zero means that the walk ends.
+inline BsdfSample sample_bsdf(const scenes::Material& material, const Vec3& wo_local, const Uniforms& u,
+                              Transport carried)
+{
+    return std::visit([&](const auto& m) { return sample_bsdf(m, wo_local, u, carried); }, material);
+}
+
+/// Bounces up to this one are never ended by roulette.
+inline constexpr int bounces_without_roulette = 4;
+
+/// The probability that a walk goes on from its `bounce`-th bounce (the first is 1). It depends on the
+/// vertex alone and not on the walk that led there, so that the density of a path can be told without
+/// knowing from which end it was walked. Below 1 even on a perfect mirror: every walk ends.
+inline double survival_probability(const scenes::Material& material, int bounce, bool roulette)
+{
+    if (!roulette || bounce <= bounces_without_roulette) return 1.0;
+    struct {
+        double operator()(const scenes::Lambertian& m) const { return max_component(m.albedo); }
+        double operator()(const scenes::Mirror& m) const { return max_component(m.reflectance); }
+        double operator()(const scenes::Glass& m) const
+        {
+            return std::max(max_component(m.reflectance), max_component(m.transmittance));
+        }
+        double operator()(const scenes::Emission& /*m*/) const { return 0.0; }
+    } albedo;
+    return std::min(0.95, std::visit(albedo, material));
+}
+
+} // namespace ref

@@ -1,0 +1,93 @@
+#include "ref/transport/path_tracer.h"
+
+#include "ref/transport/bsdf.h"
+#include "ref/transport/visibility.h"
+
+namespace ref {
+
+namespace {
+
+/// The eye walk as far as it has come.
+struct Walk {
+    Ray ray;
+    Vec3 from;      // the vertex that `ray` leaves, without offset
+    Rgb throughput; // product of f |cos| / pdf over the bounces so far
+    double pdf;     // of the ray's direction, per solid angle, with the chance of having gone on
+    bool delta;     // the direction was certain: next-event estimation could not have found it
+};
+
+/// Share of the emission hit in a path that next-event estimation finds with density `pdf_light`.
+double weight_of_hit(const Walk& walk, double pdf_light)
+{
+    return walk.delta ? 1.0 : walk.pdf / (walk.pdf + pdf_light);
+}
+
+/// Next event: joins `point`, eye vertex j, to a point of an emitter.
+void add_next_event(const World& world, const PathOptions& options, const SampleId& id, int j,
+                    const SurfacePoint& point, const Frame& frame, const Vec3& wo_local,
+                    const Walk& walk, std::vector<Contribution>& out)
+{
+    const auto& material = world.scene.materials[point.material];
+    const auto light = sample_incident(world.emitters, point.position,
+                                       uniforms(id, Event::next_event, static_cast<std::uint32_t>(j)));
+    if (!light) return;
+    const Vec3 wi_local = frame.to_local(light->wi);
+    const Rgb f = evaluate_bsdf(material, wo_local, wi_local);
+    if (f == Rgb(0.0) || !visible(world.geometry, point, *light)) return;
+
+    const double pdf_hit = light->delta ? 0.0
+                                        : pdf_solid_angle_bsdf(material, wo_local, wi_local) *
+                                              survival_probability(material, j, options.roulette);
+    const Rgb value = walk.throughput * f * std::abs(wi_local.z) * light->radiance / light->pdf;
+    out.push_back({id.pixel, 1, j + 1, value, light->pdf / (light->pdf + pdf_hit)});
+}
+
+} // namespace
+
+void trace_path(const World& world, const PathOptions& options, const SampleId& id,
+                std::vector<Contribution>& out)
+{
+    const auto width = static_cast<std::uint32_t>(world.camera.width());
+    const Uniforms on_pixel = uniforms(id, Event::camera);
+    const Ray first = world.camera.ray({id.pixel % width + on_pixel[0], id.pixel / width + on_pixel[1]});
+    // No other strategy of this integrator finds what the camera sees directly: as if it were certain.
+    Walk walk{first, first.origin, Rgb(1.0), 0.0, true};
+
+    for (int j = 1; j <= options.max_edges; ++j) { // the edge from z_{j-1} to z_j
+        const auto hit = intersect(world.geometry, walk.ray);
+        if (!hit) {
+            if (world.scene.environment)
+                out.push_back({id.pixel, 0, j + 1, walk.throughput * *world.scene.environment,
+                               weight_of_hit(walk, pdf_solid_angle_environment(world.emitters))});
+            return;
+        }
+        const SurfacePoint point = surface_point(world.geometry, walk.ray, *hit);
+        const Vec3 wo = -walk.ray.direction;
+        const Rgb emitted = emitted_radiance(world.scene, point, wo);
+        if (emitted != Rgb(0.0))
+            out.push_back(
+                {id.pixel, 0, j + 1, walk.throughput * emitted,
+                 weight_of_hit(walk, pdf_solid_angle_incident(world.emitters, walk.from, point))});
+        if (j == options.max_edges) return;
+
+        const auto& material = world.scene.materials[point.material];
+        const Frame frame(point.normal);
+        const Vec3 wo_local = frame.to_local(wo);
+        if (!is_delta(material))
+            add_next_event(world, options, id, j, point, frame, wo_local, walk, out);
+
+        const Uniforms u = uniforms(id, Event::eye_bounce, static_cast<std::uint32_t>(j));
+        const BsdfSample bounce = sample_bsdf(material, wo_local, u, Transport::radiance);
+        const double survival = survival_probability(material, j, options.roulette);
+        if (bounce.value == Rgb(0.0) || u[3] >= survival) return;
+
+        const Vec3 wi = glm::normalize(frame.to_world(bounce.wi_local));
+        walk = {{leave_surface(point, wi), wi},
+                point.position,
+                walk.throughput * bounce.value / survival,
+                bounce.pdf_fwd * survival,
+                bounce.delta};
+    }
+}
+
+} // namespace ref

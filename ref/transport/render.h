@@ -1,0 +1,34 @@
+#pragma once
+
+// From samples to a picture: batches of samples, tiles of pixels, threads over tiles.
+
+#include "golden/image.h"
+#include "ref/transport/world.h"
+
+#include <cstdint>
+#include <functional>
+
+namespace ref {
+
+struct RenderOptions {
+    PathOptions path;
+    std::uint64_t batches = 64;   // that the film is to hold in the end
+    std::uint32_t batch_size = 4; // samples per pixel of a batch
+    unsigned threads = 1;
+};
+
+/// How a caller watches a render and stops it. Either may be empty. Both are called from any of the
+/// render's threads, `progress` from one at a time.
+struct Monitor {
+    std::function<void(double done)> progress; // batches done, with the part of the present one
+    std::function<bool()> stop;                // asked between tiles: true ends the render soon
+};
+
+/// Adds batches to `film`, which may come from an earlier, shorter render, until it holds as many as
+/// asked for or `monitor` says stop; an unfinished batch is dropped. Returns whether it is complete.
+/// The film depends on scene, options and seed alone: not on the number of threads, nor on where the
+/// render was interrupted. Throws std::invalid_argument if film and camera differ in size.
+bool render(const World& world, Integrator integrator, const RenderOptions& options, golden::Film& film,
+            const Monitor& monitor = {});
+
+} // namespace ref

@@ -1,0 +1,57 @@
+#pragma once
+
+// What an integrator needs to know, and what it has to say.
+
+#include "ref/transport/camera.h"
+#include "ref/transport/emitter.h"
+#include "ref/transport/random.h"
+#include "ref/trees/geometry.h"
+#include "scenes/scene.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace ref {
+
+/// A scene made ready for rendering. Keeps a reference to the scene, which must outlive it and must
+/// have a camera.
+struct World {
+    const scenes::Scene& scene;
+    Geometry geometry;
+    Emitters emitters;
+    Camera camera;
+
+    World(const scenes::Scene& source, int width, int height)
+        : scene(source), geometry(source), emitters(source), camera(source.camera.value(), width, height)
+    {}
+};
+
+inline constexpr int unlimited_edges = std::numeric_limits<int>::max();
+
+/// How paths are made, the same for every integrator.
+struct PathOptions {
+    std::uint64_t seed = 0;
+    int max_edges = unlimited_edges; // of a path, the camera's included; at least 1
+    bool roulette = true;            // unbiased either way; with none, max_edges must bound the paths
+};
+
+/// What one path adds to one pixel. The path has s vertices from the light and t from the eye
+/// [Veach 1997, sec. 10.2], hence s + t - 1 edges.
+struct Contribution {
+    std::uint32_t pixel;
+    int s, t;
+    Rgb value;     // radiance (W m^-2 sr^-1), unweighted: as if its strategy were the only one
+    double weight; // share that this strategy has in the path
+};
+
+inline int edges(const Contribution& contribution)
+{
+    return contribution.s + contribution.t - 1;
+}
+
+/// An integrator appends to `out` what the sample `id` contributes: one function call is one sample.
+using Integrator = void (*)(const World& world, const PathOptions& options, const SampleId& id,
+                            std::vector<Contribution>& out);
+
+} // namespace ref

@@ -1,0 +1,146 @@
+#pragma once
+
+// Where a ray meets one triangle or one sphere. No constant here has a unit: scaling a scene by a power
+// of two scales every t by it, bit for bit, as long as no product of three lengths over- or underflows.
+//
+// Triangles: [Woop, Benthin, Wald 2013]. Names follow the paper: kx, ky, kz, S, A, B, C, U, V, W, T,
+// det. Spheres: [Haines, Guenther, Akenine-Moeller 2019].
+
+#include "ref/trees/ray.h"
+#include "ref/trees/rounding.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace ref {
+
+/// A ray with what the triangle test needs of it: the axis z along which it is longest, and the shear
+/// that makes it the z axis [Woop et al. 2013, sec. 3.1].
+struct ShearedRay {
+    explicit ShearedRay(const Ray& ray) : origin(ray.origin), t_max(ray.t_max)
+    {
+        const Vec3 d = ray.direction;
+        const Vec3 length = glm::abs(d);
+        kz = length.x > length.y ? (length.x > length.z ? 0 : 2) : (length.y > length.z ? 1 : 2);
+        kx = (kz + 1) % 3;
+        ky = (kz + 2) % 3;
+        const double* const axis = glm::value_ptr(d);
+        S = Vec3(axis[kx] / axis[kz], axis[ky] / axis[kz], 1 / axis[kz]);
+    }
+
+    /// `vertex` seen from the ray: x and y across it, z the t at which the ray is level with the vertex.
+    [[nodiscard]] Vec3 shear(const Vec3& vertex) const
+    {
+        const Vec3 moved = vertex - origin;
+        const double* const axis = glm::value_ptr(moved);
+        return {axis[kx] - S.x * axis[kz], axis[ky] - S.y * axis[kz], S.z * axis[kz]};
+    }
+
+    Vec3 origin;
+    double t_max;
+    int kx, ky, kz;
+    Vec3 S;
+};
+
+struct TriangleHit {
+    double t;
+    Vec3 barycentric;
+};
+
+/// px qy - py qx: on which side of the line from `q` to `p` the ray passes. Its sign is exact.
+///
+/// Rounding keeps order: where the exact products differ in one sense, the rounded ones do not differ in
+/// the other, so that a difference that is not 0 has the right sign. Where it is 0 the rounded products
+/// are equal, and the sign is that of the difference of their rounding errors; both errors are doubles,
+/// which fma gives exactly. (Single precision can multiply again in double [Woop et al. 2013, sec. 3.3];
+/// this is the same step where there is no wider type.) Both triangles at an edge get the same bits with
+/// opposite signs, so that no ray slips between them.
+inline double edge_function(const Vec3& p, const Vec3& q)
+{
+    const double left = p.x * q.y;
+    const double right = p.y * q.x;
+    if (left != right) return left - right;
+    return std::fma(p.x, q.y, -left) - std::fma(p.y, q.x, -right);
+}
+
+/// Whether `limit` is beyond the hit: U (a - limit) + V (b - limit) + W (c - limit) has the opposite
+/// sign of U, V and W in spite of all rounding in it. a, b, c are the z of the vertices A, B, C.
+///
+/// Clear if all vertices are on one side. Otherwise: an edge function px qy - py qx errs by at most
+/// gamma_2 (|px qy| + |py qx|), the product with z and the sum of three by another gamma_3 of the same,
+/// and the bound itself is computed with five roundings or fewer: gamma_12 of the sum of magnitudes
+/// covers all.
+inline bool certainly_before(const Vec3& A, const Vec3& B, const Vec3& C, const Vec3& UVW, double limit)
+{
+    const Vec3 z = Vec3(A.z, B.z, C.z) - limit;
+    if (z.x < 0 && z.y < 0 && z.z < 0) return true;
+    if (z.x >= 0 && z.y >= 0 && z.z >= 0) return false;
+    const auto size = [](const Vec3& p, const Vec3& q) {
+        return std::abs(p.x * q.y) + std::abs(p.y * q.x);
+    };
+    const Vec3 sizes(size(C, B), size(A, C), size(B, A));
+    const double volume = glm::dot(UVW, z);
+    const double sign = UVW.x + UVW.y + UVW.z < 0 ? -1 : 1;
+    return sign * volume < -gamma_bound(12) * glm::dot(sizes, glm::abs(z));
+}
+
+/// Watertight: the triangle with its edges and corners counts, decided by exact signs of U, V, W. Both
+/// sides count. A hit is reported only where rounding leaves no doubt that 0 < t < t_max: a ray that
+/// starts on one side of a plane, by however little, does not hit it by going further to that side
+/// (leave_surface in geometry.cpp counts on it). A triangle seen exactly edge-on is not hit.
+inline std::optional<TriangleHit> intersect_triangle(const ShearedRay& ray,
+                                                     const std::array<Vec3, 3>& triangle)
+{
+    const Vec3 A = ray.shear(triangle[0]);
+    const Vec3 B = ray.shear(triangle[1]);
+    const Vec3 C = ray.shear(triangle[2]);
+    const double U = edge_function(C, B);
+    const double V = edge_function(A, C);
+    const double W = edge_function(B, A);
+    const bool inside = (U >= 0 && V >= 0 && W >= 0) || (U <= 0 && V <= 0 && W <= 0);
+    const double det = U + V + W; // no cancellation: 0 only if all three are
+    if (!inside || det == 0) return std::nullopt;
+
+    // "t > 0" is "-t < 0": mirror z.
+    const auto mirrored = [](const Vec3& p) { return Vec3(p.x, p.y, -p.z); };
+    if (!certainly_before(mirrored(A), mirrored(B), mirrored(C), {U, V, W}, 0)) return std::nullopt;
+    if (std::isfinite(ray.t_max) && !certainly_before(A, B, C, {U, V, W}, ray.t_max))
+        return std::nullopt;
+
+    const Vec3 barycentric = Vec3(U, V, W) / det;
+    const double t = glm::dot(barycentric, Vec3(A.z, B.z, C.z));
+    if (!(t > 0 && t < ray.t_max)) return std::nullopt;
+    return TriangleHit{t, barycentric};
+}
+
+/// The smallest t with 0 < t < t_max at which the ray crosses the sphere's surface, from either side.
+///
+/// The textbook's discriminant b^2 - ac loses all digits of a small or distant sphere. Here it is
+/// r^2 - |l|^2, l from the centre to the nearest point of the ray's line; and of the two roots of
+/// a t^2 - 2 b t + c the one that would cancel comes from their product c / a.
+inline std::optional<double> intersect_sphere(const Ray& ray, const Vec3& center, double radius)
+{
+    const Vec3 f = ray.origin - center;
+    const double a = glm::dot(ray.direction, ray.direction);
+    const double b = -glm::dot(f, ray.direction);
+    const Vec3 l = f + (b / a) * ray.direction;
+    const double discriminant = radius * radius - glm::dot(l, l);
+    if (!(discriminant >= 0)) return std::nullopt;
+    const double c = glm::dot(f, f) - radius * radius;
+    const double q = b + std::copysign(std::sqrt(a * discriminant), b);
+    const double t0 = c / q;
+    const double t1 = q / a;
+    const auto valid = [&](double t) { return t > 0 && t < ray.t_max; };
+    const double near = std::min(t0, t1);
+    const double far = std::max(t0, t1);
+    if (valid(near)) return near;
+    if (valid(far)) return far;
+    return std::nullopt;
+}
+
+} // namespace ref
