@@ -91,30 +91,43 @@ bool occluded(const Geometry& geometry, const Ray& ray)
 //
 // What it cannot promise: n has an angular error of about 4 u times the aspect ratio (longest edge over
 // smallest height). Which side a direction closer than this to the surface points to is not known.
+SurfacePoint triangle_point(const Geometry& geometry, std::uint32_t triangle, const Vec3& barycentric)
+{
+    const auto& v = geometry.scene().triangles[triangle].vertices;
+    const Vec3 e1 = v[1] - v[0];
+    const Vec3 e2 = v[2] - v[0];
+    const double b1 = barycentric[1];
+    const double b2 = barycentric[2];
+    SurfacePoint point{};
+    point.primitive = triangle;
+    point.material = geometry.scene().triangles[triangle].material;
+    point.position = v[0] + (b1 * e1 + b2 * e2);
+    point.normal = glm::normalize(glm::cross(e1, e2));
+    point.error = gamma_bound(7) * (b1 * glm::abs(e1) + b2 * glm::abs(e2)) +
+                  2 * unit_roundoff * glm::abs(point.position) + 16 * unit_roundoff * geometry.diagonal();
+    return point;
+}
+
+SurfacePoint sphere_point(const Geometry& geometry, std::uint32_t sphere, const Vec3& direction)
+{
+    const scenes::Sphere& s = geometry.scene().spheres[sphere];
+    SurfacePoint point{};
+    point.primitive = static_cast<std::uint32_t>(geometry.scene().triangles.size()) + sphere;
+    point.material = s.material;
+    point.normal = glm::normalize(direction);
+    point.position = s.center + s.radius * point.normal;
+    point.error = gamma_bound(5) * s.radius * glm::abs(point.normal) +
+                  2 * unit_roundoff * glm::abs(point.position) + 16 * unit_roundoff * geometry.diagonal();
+    return point;
+}
+
 SurfacePoint surface_point(const Geometry& geometry, const Ray& ray, const Hit& hit)
 {
-    const scenes::Scene& scene = geometry.scene();
-    SurfacePoint point{};
-    point.primitive = hit.primitive;
-    point.material = material_of(scene, hit.primitive);
-    if (hit.primitive < scene.triangles.size()) {
-        const auto& v = scene.triangles[hit.primitive].vertices;
-        const Vec3 e1 = v[1] - v[0];
-        const Vec3 e2 = v[2] - v[0];
-        const double b1 = hit.barycentric[1];
-        const double b2 = hit.barycentric[2];
-        point.position = v[0] + (b1 * e1 + b2 * e2);
-        point.error = gamma_bound(7) * (b1 * glm::abs(e1) + b2 * glm::abs(e2));
-        point.normal = glm::normalize(glm::cross(e1, e2));
-    } else {
-        const scenes::Sphere& sphere = scene.spheres[hit.primitive - scene.triangles.size()];
-        point.normal = glm::normalize(ray.origin + hit.t * ray.direction - sphere.center);
-        point.position = sphere.center + sphere.radius * point.normal;
-        point.error = gamma_bound(5) * sphere.radius * glm::abs(point.normal);
-    }
-    point.error +=
-        2 * unit_roundoff * glm::abs(point.position) + 16 * unit_roundoff * geometry.diagonal();
-    return point;
+    const auto triangles = static_cast<std::uint32_t>(geometry.scene().triangles.size());
+    if (hit.primitive < triangles) return triangle_point(geometry, hit.primitive, hit.barycentric);
+    const std::uint32_t sphere = hit.primitive - triangles;
+    const Vec3& center = geometry.scene().spheres[sphere].center;
+    return sphere_point(geometry, sphere, ray.origin + hit.t * ray.direction - center);
 }
 
 Vec3 leave_surface(const SurfacePoint& point, const Vec3& direction)

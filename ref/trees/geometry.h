@@ -31,6 +31,12 @@ bool occluded(const Geometry& geometry, const Ray& ray);
 /// The surface at `hit`, which must come from `intersect` on the same geometry and ray.
 SurfacePoint surface_point(const Geometry& geometry, const Ray& ray, const Hit& hit);
 
+/// The point of triangle number `triangle` with these weights of its vertices (>= 0, sum 1).
+SurfacePoint triangle_point(const Geometry& geometry, std::uint32_t triangle, const Vec3& barycentric);
+
+/// The point of sphere number `sphere` (the first is 0) in `direction` (any length) from its centre.
+SurfacePoint sphere_point(const Geometry& geometry, std::uint32_t sphere, const Vec3& direction);
+
 /// `point.position` moved off the surface by just its error bound, to the side that `direction` (any
 /// length) points to: a ray from there cannot meet the surface that it leaves, nor one that coincides
 /// with it. No constant is involved, so scenes of any scale behave alike.
