@@ -11,7 +11,7 @@ namespace ref {
 namespace {
 
 /// The diagonal of the box around everything: no two points of surfaces are further apart.
-double diagonal(const scenes::Scene& scene)
+double box_diagonal(const scenes::Scene& scene)
 {
     Vec3 lower(std::numeric_limits<double>::infinity());
     Vec3 upper = -lower;
@@ -28,7 +28,7 @@ double diagonal(const scenes::Scene& scene)
 
 } // namespace
 
-Geometry::Geometry(const scenes::Scene& scene) : scene_(&scene), diagonal_(diagonal(scene)) {}
+Geometry::Geometry(const scenes::Scene& scene) : scene_(&scene), diagonal_(box_diagonal(scene)) {}
 
 std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray)
 {
