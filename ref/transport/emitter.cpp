@@ -1,6 +1,5 @@
 #include "ref/transport/emitter.h"
 
-#include "ref/trees/intersect.h"
 #include "scenes/bounds.h"
 
 #include <algorithm>
@@ -33,8 +32,9 @@ double spot_solid_angle(const scenes::SpotLight& light)
 
 } // namespace
 
-Emitters::Emitters(const scenes::Scene& scene) : scene_(&scene)
+Emitters::Emitters(const Geometry& geometry) : geometry_(&geometry)
 {
+    const scenes::Scene& scene = geometry.scene();
     const auto add = [this](EmitterKind kind, std::size_t index, double area, double power) {
         all_.push_back({kind, static_cast<std::uint32_t>(index), area, power});
     };
@@ -100,7 +100,7 @@ const Emitter* Emitters::of_primitive(std::uint32_t primitive) const
 
 const Emitter* Emitters::environment() const
 {
-    return scene_->environment ? &all_.back() : nullptr;
+    return scene().environment ? &all_.back() : nullptr;
 }
 
 Rgb emitted_radiance(const scenes::Scene& scene, const SurfacePoint& point, const Vec3& wo)
@@ -117,11 +117,11 @@ Rgb spot_intensity(const scenes::SpotLight& light, const Vec3& w)
     return cosine > 0.0 ? light.intensity * std::pow(cosine, light.exponent) : Rgb(0.0);
 }
 
-SurfacePoint sample_surface(const scenes::Scene& scene, const Emitter& emitter, double u1, double u2)
+SurfacePoint sample_surface(const Geometry& geometry, const Emitter& emitter, double u1, double u2)
 {
     if (emitter.kind == EmitterKind::triangle)
-        return triangle_point(scene, emitter.index, sample_triangle(u1, u2));
-    return sphere_point(scene, emitter.index, sample_sphere(u1, u2));
+        return triangle_point(geometry, emitter.index, sample_triangle(u1, u2));
+    return sphere_point(geometry, emitter.index, sample_sphere(u1, u2));
 }
 
 std::optional<IncidentLight> sample_incident(const Emitters& emitters, const Vec3& from,
@@ -145,7 +145,7 @@ std::optional<IncidentLight> sample_incident(const Emitters& emitters, const Vec
     switch (emitter->kind) {
     case EmitterKind::triangle:
     case EmitterKind::sphere: {
-        const SurfacePoint end = sample_surface(scene, *emitter, u[1], u[2]);
+        const SurfacePoint end = sample_surface(emitters.geometry(), *emitter, u[1], u[2]);
         const Vec3 wi = glm::normalize(end.position - from);
         light = {wi,
                  emitted_radiance(scene, end, -wi),

@@ -33,13 +33,14 @@ struct IncidentLight {
     bool infinite;
 };
 
-/// The emitters of a scene. Keeps a reference to the scene, which must outlive it.
+/// The emitters of a scene. Keeps a reference to its geometry, which must outlive it.
 class Emitters {
 public:
-    explicit Emitters(const scenes::Scene& scene);
+    explicit Emitters(const Geometry& geometry);
 
     [[nodiscard]] const std::vector<Emitter>& all() const { return all_; }
-    [[nodiscard]] const scenes::Scene& scene() const { return *scene_; }
+    [[nodiscard]] const Geometry& geometry() const { return *geometry_; }
+    [[nodiscard]] const scenes::Scene& scene() const { return geometry_->scene(); }
     /// Centre and radius of a sphere around all geometry: what infinitely distant emitters shine on.
     [[nodiscard]] const Vec3& center() const { return center_; }
     [[nodiscard]] double radius() const { return radius_; }
@@ -52,7 +53,7 @@ public:
     [[nodiscard]] const Emitter* environment() const;
 
 private:
-    const scenes::Scene* scene_;
+    const Geometry* geometry_;
     Vec3 center_{0.0};
     double radius_ = 0.0;
     std::vector<Emitter> all_;
@@ -68,7 +69,7 @@ Rgb emitted_radiance(const scenes::Scene& scene, const SurfacePoint& point, cons
 Rgb spot_intensity(const scenes::SpotLight& light, const Vec3& w);
 
 /// A uniform point on the surface of `emitter`, which must be a triangle or a sphere.
-SurfacePoint sample_surface(const scenes::Scene& scene, const Emitter& emitter, double u1, double u2);
+SurfacePoint sample_surface(const Geometry& geometry, const Emitter& emitter, double u1, double u2);
 
 /// Draws light for the point `from`, by the first three numbers of `u`: emitter, then a point of its
 /// surface uniform in area (environment: a direction uniform on the sphere). None if there is no power,

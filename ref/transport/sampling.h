@@ -6,6 +6,7 @@
 #include "ref/trees/ray.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -23,8 +23,11 @@ struct World {
     Camera camera;
 
     World(const scenes::Scene& source, int width, int height)
-        : scene(source), geometry(source), emitters(source), camera(source.camera.value(), width, height)
+        : scene(source), geometry(source), emitters(geometry),
+          camera(source.camera.value(), width, height)
     {}
+    World(const World&) = delete; // its parts refer to each other
+    World& operator=(const World&) = delete;
 };
 
 inline constexpr int unlimited_edges = std::numeric_limits<int>::max();
