@@ -60,37 +60,47 @@ bool occluded(const Geometry& geometry, const Ray& ray)
     return false;
 }
 
-// How far a point must be from a surface for a ray that starts there, or ends there, to be clear of it.
+// How far must a point be from a surface so that rays may start and segments end there?
 //
-// Let u be the unit roundoff and D the diagonal of the scene, so that no coordinate of a difference of
-// two points exceeds D. Distances below are along the normal n; a bound per coordinate e counts as sum
-// |n_i| e_i.
+// Let u be the unit roundoff and D the diagonal of the scene: two points of surfaces differ by at most
+// D in every coordinate. Distances below count along the normal n; a bound e_i per coordinate makes
+// sum |n_i| e_i.
 //
-// 1. The computed position. Triangle: the weights U/det, V/det, W/det of the doubles U, V, W are those
-// of
-//    a point P inside the triangle, wherever the ray really met it. Its coordinates are computed as
-//    v0 + (b1 e1 + b2 e2): each b carries 3 roundings (two in det, the division), the edge e 1, product
-//    and inner sum 2, and writing the bound with the computed b another: gamma_7 (b1 |e1| + b2 |e2|);
-//    the outer sum rounds by u |p|. Sphere: p = c + r (w / |w|): |w| has gamma_3, the division and the
-//    product 1 each: gamma_5 r |n_i|; the sum rounds by u |p|.
-// 2. The origin o = p + s n rounds by u |o|, or u |p| up to what is far below 4.
-// 3. A query does not see the vertex v but a perturbed one, and its answer is exact for that:
-// intersect.h
-//    decides "inside" exactly for the sheared vertices, and reports no t whose sign rounding could have
-//    changed. So if the perturbed vertices all lie on one side of the plane through o parallel to the
-//    triangle, and the direction points to the other side (or along it), there is no hit. Shearing
-//    perturbs z by 3 u D (difference, 1/dz, product) and x and y each by u D (difference) + 2 u D (S and
-//    product) + 2 u D (the last difference) + 2 u D (that z is perturbed by more than it entered with):
-//    sqrt(7^2 + 7^2 + 3^2) u D < 10.4 u D along n. This holds for the surface left, as well as for the
-//    one on which a segment ends, |v - o| <= D in both cases; there t - t_max adds u D, and the
-//    direction q' - p' is rounded, by u D: 12.4 u D. The sphere test errs by less: f = o - c has u D, l
-//    - f and l each another, |l|^2 and r^2 the like of 3 u r, and 2 r <= D: 5 u D. Its sign of |f|^2 -
-//    r^2 is certain from 4 u r on.
-// 4. Rounding of s n, of s and the error of n itself (a relative 1e-15 times the aspect ratio of the
-//    triangle) are covered by counting 16 u D for 3.
+// 1. The computed position. On a triangle, the weights U/det, V/det, W/det of the doubles U, V, W are
+//    those of a point inside the triangle, wherever the ray really met it. It is computed as v0 + (b1
+//    e1 + b2 e2): each b carries 3 roundings (two in det, one division), each e 1, product and inner
+//    sum 2, and stating the bound with the computed b one more, gamma_7 (b1 |e1| + b2 |e2|); the outer
+//    sum rounds by u |p|. On a sphere it is c + r (w / |w|): |w| carries 3, division and product 2,
+//    gamma_5 r |n_i|, and the sum u |p|.
+// 2. The origin o = p + s n is rounded by u |o|, which is u |p| but for terms of second order.
+// 3. A query answers exactly, but for perturbed vertices: intersect_triangle decides exactly whether
+//    the ray passes inside the sheared vertices, and reports no t that rounding could have carried
+//    across 0 or t_max. So a ray cannot hit if the perturbed vertices all lie strictly below a plane
+//    parallel to the triangle, below which the ray does not go; and likewise a segment that has both
+//    ends above it. The shear perturbs z by 3 u D (difference, 1/dz, product), and x and y by 7 u D
+//    each (the difference 1; S and the product 2; the last difference 2; and 2 for z's own
+//    perturbation): sqrt(7^2 + 7^2 + 3^2) u D, less than 10.4 u D along n. That holds where a ray
+//    starts and where a segment ends, since |v - o| <= D in both cases; at the end t - t_max adds u D,
+//    and the rounded direction q' - p' another: 12.4 u D. The sphere test errs less: f = o - c by u D,
+//    (b/a) d and l by u D each, |l|^2 and r^2 like 3 u r, and 2 r <= D: 5 u D; the sign of |f|^2 - r^2
+//    is certain from 4 u r on.
+// 4. Rounding in s n, and the error of n, are of second order: counting 16 u D for step 3 covers them.
 //
-// What it cannot promise: n has an angular error of about 4 u times the aspect ratio (longest edge over
-// smallest height). Which side a direction closer than this to the surface points to is not known.
+// What no offset can promise: n itself is wrong by an angle of about 4 u times the triangle's aspect
+// ratio (longest edge over smallest height). To which side a direction closer to the surface points is
+// not known. A far end that is no surface (a distant camera or light) needs no offset and gets none.
+
+namespace {
+
+/// Steps 1 to 4, given the part of step 1 that depends on the shape.
+Vec3 clearance(const Geometry& geometry, const Vec3& position, const Vec3& shape_error)
+{
+    return shape_error + 2 * unit_roundoff * glm::abs(position) +
+           16 * unit_roundoff * geometry.diagonal();
+}
+
+} // namespace
+
 SurfacePoint triangle_point(const Geometry& geometry, std::uint32_t triangle, const Vec3& barycentric)
 {
     const auto& v = geometry.scene().triangles[triangle].vertices;
@@ -103,8 +113,8 @@ SurfacePoint triangle_point(const Geometry& geometry, std::uint32_t triangle, co
     point.material = geometry.scene().triangles[triangle].material;
     point.position = v[0] + (b1 * e1 + b2 * e2);
     point.normal = glm::normalize(glm::cross(e1, e2));
-    point.error = gamma_bound(7) * (b1 * glm::abs(e1) + b2 * glm::abs(e2)) +
-                  2 * unit_roundoff * glm::abs(point.position) + 16 * unit_roundoff * geometry.diagonal();
+    point.error =
+        clearance(geometry, point.position, gamma_bound(7) * (b1 * glm::abs(e1) + b2 * glm::abs(e2)));
     return point;
 }
 
@@ -116,8 +126,8 @@ SurfacePoint sphere_point(const Geometry& geometry, std::uint32_t sphere, const 
     point.material = s.material;
     point.normal = glm::normalize(direction);
     point.position = s.center + s.radius * point.normal;
-    point.error = gamma_bound(5) * s.radius * glm::abs(point.normal) +
-                  2 * unit_roundoff * glm::abs(point.position) + 16 * unit_roundoff * geometry.diagonal();
+    point.error =
+        clearance(geometry, point.position, gamma_bound(5) * s.radius * glm::abs(point.normal));
     return point;
 }
 

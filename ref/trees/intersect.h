@@ -102,7 +102,7 @@ inline std::optional<TriangleHit> intersect_triangle(const ShearedRay& ray,
     const double U = edge_function(C, B);
     const double V = edge_function(A, C);
     const double W = edge_function(B, A);
-    const bool inside = (U >= 0 && V >= 0 && W >= 0) || (U <= 0 && V <= 0 && W <= 0);
+    const bool inside = std::min({U, V, W}) >= 0 || std::max({U, V, W}) <= 0;
     const double det = U + V + W; // no cancellation: 0 only if all three are
     if (!inside || det == 0) return std::nullopt;
 
