@@ -1,0 +1,44 @@
+#include "golden/write_image.h"
+#include "golden/atomic_file.h"
+#include "golden/exr.h"
+#include "golden/image_error.h"
+#include "golden/pfm.h"
+#include "golden/png.h"
+
+namespace golden {
+
+namespace {
+
+enum class Format { exr, pfm, png };
+
+Format format_of(const std::filesystem::path& path)
+{
+    const std::filesystem::path ending = path.extension();
+    if (ending == ".exr") return Format::exr;
+    if (ending == ".pfm") return Format::pfm;
+    if (ending == ".png") return Format::png;
+    throw ImageError(path, "the name of a picture must end in .exr, .pfm or .png");
+}
+
+} // namespace
+
+void write_image(const std::filesystem::path& path, const Film& film, const Metadata& metadata,
+                 double exposure)
+{
+    switch (format_of(path)) {
+    case Format::exr:
+        return write_exr(path, film, metadata);
+    case Format::pfm:
+        return write_pfm(path, film.mean());
+    case Format::png:
+        return write_png(path, film.mean(), exposure);
+    }
+}
+
+void check_writable(const std::filesystem::path& path)
+{
+    format_of(path);
+    check_place(path);
+}
+
+} // namespace golden
