@@ -1,15 +1,98 @@
+// COLLADA 1.4.1 [Khronos 2008], as much of it as describes a picture of surfaces and lights that stand
+// still. The reader goes from the outside in:
+//   document     well-formed XML whose elements know their file, line and id
+//   nodes        the tree of nodes below <scene>, with its transforms
+//   instances    geometries, lights and cameras, placed in the world
+//   geometries   (positions, polygons, triangulate), materials, lights, cameras: one element each
+// Elements are read when an instance needs them: what nothing refers to is not looked at. Lengths are
+// those of the file (<unit> is ignored), and so is the frame: transforms are taken as they are written,
+// whatever <up_axis> says.
+
 #include "scenes/read_scene.h"
 
+#include "scenes/collada/document.h"
+#include "scenes/collada/instances.h"
+#include "scenes/collada/nodes.h"
+
+#include <xxhash.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
 namespace scenes {
+namespace {
+
+using namespace collada;
+
+constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30U;
+
+std::string hash_of(std::string_view bytes)
+{
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx",
+                  static_cast<unsigned long long>(XXH3_64bits(bytes.data(), bytes.size())));
+    return text;
+}
+
+void check_root(const Element& root)
+{
+    if (std::string_view(root.Name()) != "COLLADA") fail(root, "not a COLLADA file");
+    const std::string_view version = required_attribute(root, "version");
+    if (version != "1.4.1" && version != "1.4.0")
+        fail(root, "version " + in_quotes(version) + " is not 1.4.1");
+    check_children(root, {"library_animation_clips", "library_animations", "library_cameras",
+                          "library_controllers", "library_effects", "library_force_fields",
+                          "library_geometries", "library_images", "library_lights", "library_materials",
+                          "library_nodes", "library_physics_materials", "library_physics_models",
+                          "library_physics_scenes", "library_visual_scenes", "scene"});
+    // Whatever else is never instanced changes nothing, but animations act on nodes by themselves.
+    for (const Element* library : children(root, "library_animations"))
+        if (const Element* animation = library->FirstChildElement("animation"))
+            fail(*animation, "animations are not supported");
+}
+
+} // namespace
+
+Scene parse_scene(std::string_view xml, const std::string& file_name)
+{
+    const std::filesystem::path path(file_name);
+    const Document document(xml, path.filename().string());
+    const Element& root = document.root();
+    check_root(root);
+    const Element& scene_element = required_child(root, "scene");
+    check_children(scene_element, {"instance_visual_scene"});
+    const Element& instance = required_child(scene_element, "instance_visual_scene");
+
+    Scene scene;
+    scene.name = path.stem().string();
+    scene.hash = hash_of(xml);
+    Instances instances(document, scene);
+    NodeWalk(document, instances).visit_scene(document.target(instance, "url", "visual_scene"));
+    instances.finish();
+    return scene;
+}
 
 Scene read_scene(const std::filesystem::path& path)
 {
-    throw SceneError(path.filename().string() + ": the reader is still to be written");
-}
+    const std::string name = path.filename().string();
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) throw SceneError(name + ": no such file");
+    if (!std::filesystem::is_regular_file(status)) throw SceneError(name + ": not a regular file");
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error) throw SceneError(name + ": " + error.message());
+    if (size > largest_file)
+        throw SceneError(name + ": larger than " + std::to_string(largest_file) + " bytes");
 
-Scene parse_scene(std::string_view /*xml*/, const std::string& file_name)
-{
-    throw SceneError(file_name + ": the reader is still to be written");
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw SceneError(name + ": " + std::strerror(errno));
+    std::string xml(size, '\0');
+    if (!file.read(xml.data(), static_cast<std::streamsize>(size)))
+        throw SceneError(name + ": cannot be read");
+    return parse_scene(xml, name);
 }
 
 } // namespace scenes

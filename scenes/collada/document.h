@@ -1,0 +1,68 @@
+#pragma once
+
+// An XML document whose elements know their file and line, and can be found by their id.
+
+#include <tinyxml2.h>
+
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace scenes::collada {
+
+using Element = tinyxml2::XMLElement;
+
+/// The document and an index of its ids. Throws SceneError for anything but well-formed UTF-8 without
+/// a document type declaration (entities could make a small file large), for elements nested deeper than
+/// 100, and for an id or an attribute given twice.
+class Document {
+public:
+    Document(std::string_view xml, std::string file_name);
+
+    [[nodiscard]] const Element& root() const { return *xml_->RootElement(); }
+
+    /// The element that `attribute` of `from` refers to in the form "#id". Throws SceneError if the
+    /// attribute is missing or malformed, or if no <expected> element has that id.
+    [[nodiscard]] const Element& target(const Element& from, const char* attribute,
+                                        std::string_view expected) const;
+
+private:
+    std::unique_ptr<std::string> file_name_; // its address is known to the document
+    std::unique_ptr<tinyxml2::XMLDocument> xml_;
+    std::unordered_map<std::string_view, const Element*> elements_by_id_;
+};
+
+/// `element` as a message shows it: `<light id="Sun">`.
+std::string describe(const Element& element);
+/// The beginning of every message about `element`: `file.dae:12: <light id="Sun">: `.
+std::string place(const Element& element);
+/// Throws SceneError with place(at) and `what`.
+[[noreturn]] void fail(const Element& at, const std::string& what);
+/// `text` between quotation marks and cut short, with control characters replaced: fit for a message.
+std::string in_quotes(std::string_view text);
+
+/// The value of an attribute that must be there; fails otherwise.
+std::string_view required_attribute(const Element& element, const char* name);
+/// The text of an element that holds nothing else (comments do not count).
+std::string text_of(const Element& element);
+
+/// All children of that name, in order.
+std::vector<const Element*> children(const Element& parent, const char* name);
+/// The only child of that name, or null; fails if there are several.
+const Element* optional_child(const Element& parent, const char* name);
+/// The only child of that name; fails unless there is exactly one.
+const Element& required_child(const Element& parent, const char* name);
+
+/// Where the CMU462 profile can say something.
+enum class Cmu462 { refused, understood };
+/// Fails at the first child of `parent` that is not one of `known`; <asset> and <extra> are always
+/// known, but what <extra> says in the CMU462 profile must be `understood`.
+void check_children(const Element& parent, std::initializer_list<std::string_view> known,
+                    Cmu462 profile = Cmu462::refused);
+/// The <technique profile="CMU462"> in an <extra> of `owner`, or null if there is none or it is empty.
+const Element* cmu462_technique(const Element& owner);
+
+} // namespace scenes::collada

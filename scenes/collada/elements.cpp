@@ -1,0 +1,120 @@
+// The functions of document.h that look at one element and its children.
+
+#include "scenes/collada/document.h"
+#include "scenes/read_scene.h"
+
+#include <algorithm>
+
+namespace scenes::collada {
+
+std::string in_quotes(std::string_view text)
+{
+    constexpr std::size_t longest = 60;
+    std::string result(text.substr(0, longest));
+    std::replace_if(
+        result.begin(), result.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
+    if (text.size() > longest) {
+        // A UTF-8 sequence that the cut went through goes as a whole.
+        const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+        if (continues(text[longest])) {
+            while (continues(result.back())) result.pop_back();
+            result.pop_back();
+        }
+        result += "...";
+    }
+    return "\"" + result + "\"";
+}
+
+std::string describe(const Element& element)
+{
+    const std::string name = element.Name();
+    for (const char* attribute : {"id", "url", "target", "material", "semantic", "source", "name"})
+        if (const char* value = element.Attribute(attribute))
+            return "<" + name + " " + attribute + "=" + in_quotes(value) + ">";
+    return "<" + name + ">";
+}
+
+std::string place(const Element& element)
+{
+    const auto& file_name = *static_cast<const std::string*>(element.GetDocument()->GetUserData());
+    return file_name + ":" + std::to_string(element.GetLineNum()) + ": " + describe(element) + ": ";
+}
+
+void fail(const Element& at, const std::string& what)
+{
+    throw SceneError(place(at) + what);
+}
+
+std::string_view required_attribute(const Element& element, const char* name)
+{
+    const char* value = element.Attribute(name);
+    if (value == nullptr) fail(element, "attribute \"" + std::string(name) + "\" is missing");
+    return value;
+}
+
+std::string text_of(const Element& element)
+{
+    std::string text;
+    for (const auto* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
+        if (const Element* child = node->ToElement())
+            fail(*child, "not known inside " + describe(element));
+        if (node->ToText() != nullptr) text += node->Value();
+    }
+    return text;
+}
+
+std::vector<const Element*> children(const Element& parent, const char* name)
+{
+    std::vector<const Element*> result;
+    for (const auto* e = parent.FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name))
+        result.push_back(e);
+    return result;
+}
+
+const Element* optional_child(const Element& parent, const char* name)
+{
+    const Element* child = parent.FirstChildElement(name);
+    if (child == nullptr) return nullptr;
+    if (const Element* second = child->NextSiblingElement(name))
+        fail(*second, "a second <" + std::string(name) + "> in " + describe(parent));
+    return child;
+}
+
+const Element& required_child(const Element& parent, const char* name)
+{
+    const Element* child = optional_child(parent, name);
+    if (child == nullptr) fail(parent, "no <" + std::string(name) + "> in it");
+    return *child;
+}
+
+void check_children(const Element& parent, std::initializer_list<std::string_view> known, Cmu462 profile)
+{
+    for (const auto* node = parent.FirstChild(); node != nullptr; node = node->NextSibling()) {
+        if (node->ToText() != nullptr)
+            fail(parent, "text " + in_quotes(node->Value()) + " is not known here");
+        const Element* child = node->ToElement();
+        if (child == nullptr) continue;
+        const std::string_view name = child->Name();
+        if (name != "extra" && name != "asset" &&
+            std::find(known.begin(), known.end(), name) == known.end())
+            fail(*child, "not known inside " + describe(parent));
+    }
+    if (profile == Cmu462::understood) return;
+    if (const Element* technique = cmu462_technique(parent))
+        fail(*technique->FirstChildElement(), "the CMU462 profile says nothing of " + describe(parent));
+}
+
+const Element* cmu462_technique(const Element& owner)
+{
+    const Element* found = nullptr;
+    for (const Element* extra : children(owner, "extra"))
+        for (const Element* technique : children(*extra, "technique")) {
+            if (!technique->Attribute("profile", "CMU462") || technique->FirstChildElement() == nullptr)
+                continue;
+            if (found != nullptr) fail(*technique, "a second CMU462 profile for " + describe(owner));
+            found = technique;
+        }
+    return found;
+}
+
+} // namespace scenes::collada

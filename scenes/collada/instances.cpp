@@ -1,0 +1,158 @@
+#include "scenes/collada/instances.h"
+
+#include "scenes/collada/bind_material.h"
+#include "scenes/collada/cameras.h"
+#include "scenes/collada/lights.h"
+#include "scenes/emission.h"
+
+#include <glm/geometric.hpp>
+
+#include <string>
+#include <variant>
+
+namespace scenes::collada {
+namespace {
+
+// 80 bytes each: 1.3 GB. Instances of instances could ask for any number in a file of any size.
+constexpr std::size_t most_primitives = std::size_t{1} << 24U;
+
+/// Counter-clockwise seen from where it shines to: the side of local -z.
+const std::vector<Corners> area_light_square = {
+    {Vec3(-0.5, -0.5, 0), Vec3(-0.5, 0.5, 0), Vec3(0.5, 0.5, 0)},
+    {Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 0), Vec3(0.5, -0.5, 0)},
+};
+
+Vec3 world_position(const Matrix& to_world, const Element& instance)
+{
+    const Vec3 position = transform_point(to_world, Vec3(0.0));
+    if (!is_finite(position)) fail(instance, "the transform of its node takes it to infinity");
+    return position;
+}
+
+Vec3 world_direction(const Matrix& to_world, const Vec3& local, const Element& instance)
+{
+    const Vec3 direction = unit(transform_direction(to_world, local));
+    if (!is_finite(direction)) fail(instance, "the transform of its node leaves it no direction");
+    return direction;
+}
+
+LinearPart invertible_part(const Matrix& to_world, const Element& instance)
+{
+    LinearPart linear(to_world);
+    if (linear.singular) fail(instance, "the transform of its node has no inverse");
+    return linear;
+}
+
+} // namespace
+
+void Instances::add_geometry(const Element& instance, const Matrix& to_world)
+{
+    check_children(instance, {"bind_material"});
+    const Geometry& geometry = geometries_.get(document_->target(instance, "url", "geometry"));
+    if (const auto* sphere = std::get_if<LocalSphere>(&geometry))
+        add_sphere(*sphere, instance, to_world);
+    else
+        add_mesh(std::get<Mesh>(geometry), instance, to_world);
+}
+
+void Instances::add_mesh(const Mesh& mesh, const Element& instance, const Matrix& to_world)
+{
+    const MaterialBinding binding(*document_, instance);
+    for (const Part& part : mesh) {
+        if (part.triangles.empty()) continue;
+        const std::uint32_t material = materials_.index_of(binding.material_of(*part.element));
+        add_triangles(part.triangles, material, instance, to_world);
+    }
+}
+
+void Instances::add_triangles(const std::vector<Corners>& triangles, std::uint32_t material,
+                              const Element& instance, const Matrix& to_world)
+{
+    const LinearPart linear = invertible_part(to_world, instance);
+    check_room(triangles.size(), instance);
+    for (const Corners& corners : triangles) {
+        std::array<Vec3, 3> world{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            world[i] = transform_point(to_world, corners[i]);
+            if (!is_finite(world[i]))
+                fail(instance, "the transform of its node takes a vertex to infinity");
+        }
+        if (linear.mirrored) std::swap(world[1], world[2]);
+        scene_->triangles.push_back({world, material});
+    }
+}
+
+void Instances::add_sphere(const LocalSphere& sphere, const Element& instance, const Matrix& to_world)
+{
+    const LinearPart linear = invertible_part(to_world, instance);
+    if (!linear.uniform || !linear.orthogonal)
+        fail(instance, "an ellipsoid: the transform of its node stretches a sphere by " +
+                           std::to_string(linear.lengths.x) + ", " + std::to_string(linear.lengths.y) +
+                           ", " + std::to_string(linear.lengths.z) +
+                           (linear.orthogonal ? "" : " and shears it"));
+    check_room(1, instance);
+    const double scale = (linear.lengths.x + linear.lengths.y + linear.lengths.z) / 3;
+    const Sphere world{world_position(to_world, instance), scale * sphere.radius,
+                       materials_.index_of(MaterialBinding(*document_, instance).only_material())};
+    if (!(world.radius > 0) || !is_finite(Vec3(world.radius)))
+        fail(instance, "the transform of its node leaves the sphere no finite radius");
+    scene_->spheres.push_back(world);
+}
+
+void Instances::check_room(std::size_t more, const Element& instance) const
+{
+    if (primitive_count(*scene_) + more > most_primitives)
+        fail(instance, "more than " + std::to_string(most_primitives) + " triangles and spheres");
+}
+
+void Instances::add_light(const Element& instance, const Matrix& to_world)
+{
+    check_children(instance, {});
+    const Element& element = document_->target(instance, "url", "light");
+    const Light light = read_light(element);
+    if (const auto* area = std::get_if<AreaLight>(&light)) {
+        area_lights_.push_back({&instance, &element, area->radiance, to_world});
+    } else if (const auto* ambient = std::get_if<AmbientLight>(&light)) {
+        scene_->environment = scene_->environment.value_or(Rgb(0.0)) + ambient->radiance;
+        if (!is_finite(*scene_->environment)) fail(instance, "the ambient lights add up to infinity");
+    } else if (const auto* point = std::get_if<PointLight>(&light)) {
+        scene_->point_lights.push_back({world_position(to_world, instance), point->intensity});
+    } else if (const auto* directional = std::get_if<DirectionalLight>(&light)) {
+        const Vec3 direction = world_direction(to_world, directional->direction, instance);
+        scene_->directional_lights.push_back({direction, directional->irradiance});
+    } else {
+        SpotLight spot = std::get<SpotLight>(light);
+        spot.position = world_position(to_world, instance);
+        spot.direction = world_direction(to_world, spot.direction, instance);
+        scene_->spot_lights.push_back(spot);
+    }
+}
+
+void Instances::add_camera(const Element& instance, const Matrix& to_world)
+{
+    check_children(instance, {});
+    const Element& camera = document_->target(instance, "url", "camera");
+    if (scene_->camera)
+        scene_->notices.push_back(place(instance) + "ignored: the first camera counts");
+    else
+        scene_->camera = read_camera(camera, instance, to_world, scene_->notices);
+}
+
+void Instances::finish()
+{
+    const bool geometry_emits = has_emissive_geometry(*scene_);
+    for (const AreaLightInstance& area : area_lights_) {
+        if (geometry_emits) {
+            scene_->notices.push_back(place(*area.instance) +
+                                      "skipped: the scene has emissive geometry, of which an "
+                                      "area light is a second description");
+            continue;
+        }
+        const std::uint32_t material = materials_.index_of(*area.light, area.radiance);
+        add_triangles(area_light_square, material, *area.instance, area.to_world);
+    }
+    if (!has_emitter(*scene_))
+        scene_->notices.push_back(place(document_->root()) + "no emitter: the picture will be black");
+}
+
+} // namespace scenes::collada

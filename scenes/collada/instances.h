@@ -1,0 +1,60 @@
+#pragma once
+
+// What nodes place in the scene: geometries, lights and cameras, taken from their local frame to the
+// world.
+
+#include "scenes/collada/document.h"
+#include "scenes/collada/geometries.h"
+#include "scenes/collada/materials.h"
+#include "scenes/collada/transform.h"
+#include "scenes/scene.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace scenes::collada {
+
+/// Adds instances to a scene, each as its instance element says and with the transform of its node.
+class Instances {
+public:
+    Instances(const Document& document, Scene& scene)
+        : document_(&document), scene_(&scene), materials_(document, scene),
+          geometries_(document, scene.notices)
+    {}
+
+    /// <instance_geometry>. A mirroring transform turns the winding of triangles over as well, so that
+    /// their normal stays on the side that it was on: the front of a mirrored lamp is the mirror image
+    /// of its front. Spheres take similarity transforms only: an ellipsoid is an error.
+    void add_geometry(const Element& instance, const Matrix& to_world);
+    /// <instance_light>. Area lights wait until finish().
+    void add_light(const Element& instance, const Matrix& to_world);
+    /// <instance_camera>. The first one counts; others are noticed.
+    void add_camera(const Element& instance, const Matrix& to_world);
+    /// To be called after the last instance: turns area lights into pairs of triangles, unless the
+    /// geometry emits itself, for then they describe the same luminaires a second time. Notices a scene
+    /// without any emitter.
+    void finish();
+
+private:
+    struct AreaLightInstance {
+        const Element* instance;
+        const Element* light;
+        Rgb radiance;
+        Matrix to_world;
+    };
+
+    void add_mesh(const Mesh& mesh, const Element& instance, const Matrix& to_world);
+    void add_sphere(const LocalSphere& sphere, const Element& instance, const Matrix& to_world);
+    void add_triangles(const std::vector<Corners>& triangles, std::uint32_t material,
+                       const Element& instance, const Matrix& to_world);
+    /// Fails if `more` primitives on top of those in the scene are too many.
+    void check_room(std::size_t more, const Element& instance) const;
+
+    const Document* document_;
+    Scene* scene_;
+    Materials materials_;
+    Geometries geometries_;
+    std::vector<AreaLightInstance> area_lights_;
+};
+
+} // namespace scenes::collada
