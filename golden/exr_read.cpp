@@ -17,6 +17,7 @@
 #include <charconv>
 #include <cstring>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace golden {
@@ -28,7 +29,8 @@ namespace {
 
 class MemoryStream : public Imf::IStream {
 public:
-    explicit MemoryStream(std::string_view bytes) : IStream("memory"), bytes_(bytes) {}
+    MemoryStream(const std::string& name, std::string_view bytes) : IStream(name.c_str()), bytes_(bytes)
+    {}
     bool read(char data[], int size) override
     {
         const auto count = static_cast<std::size_t>(size);
@@ -55,9 +57,7 @@ public:
     {
         const long long width = static_cast<long long>(window_.max.x) - window_.min.x + 1;
         const long long height = static_cast<long long>(window_.max.y) - window_.min.y + 1;
-        if (!plausible_size(width, height))
-            throw ImageError(path,
-                             "absurd size " + std::to_string(width) + "x" + std::to_string(height));
+        check_size(path, width, height);
         width_ = static_cast<int>(width);
         height_ = static_cast<int>(height);
         check_bytes(bytes.size());
@@ -104,7 +104,7 @@ private:
     /// The file as a stream, if it is a flat picture in one part.
     static MemoryStream flat_picture(const fs::path& path, std::string_view bytes)
     {
-        MemoryStream stream(bytes);
+        MemoryStream stream(path.filename().string(), bytes);
         bool tiled = false;
         bool deep = false;
         bool parts = false;
@@ -112,7 +112,7 @@ private:
             throw ImageError(path, "not an OpenEXR file");
         if (deep) throw ImageError(path, "holds deep data; only flat pictures can be read");
         if (parts) throw ImageError(path, "holds several parts; only single-part files can be read");
-        return MemoryStream(bytes);
+        return {path.filename().string(), bytes};
     }
 
     /// Asks whether the file is long enough to hold its pixels, before memory is asked for.
@@ -211,7 +211,8 @@ std::optional<Film> read_state(const fs::path& path, Reader& reader)
     const auto [rest, error] = std::from_chars(text->value().data(), end, batches);
     if (error != std::errc() || rest != end)
         throw ImageError(path, "'" + text->value() + "' is no number of batches");
-    return Film(reader.exact(mean_state), reader.exact(squares_state), batches);
+    Image mean = reader.exact(mean_state);
+    return Film(std::move(mean), reader.exact(squares_state), batches);
 }
 
 } // namespace

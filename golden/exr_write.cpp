@@ -131,9 +131,7 @@ void write_exr(const fs::path& path, const Film& film, const Metadata& metadata,
                FilmState state)
 {
     const Image& mean = film.mean();
-    if (!plausible_size(mean.width, mean.height))
-        throw ImageError(path, "a picture of " + std::to_string(mean.width) + "x" +
-                                   std::to_string(mean.height) + " pixels cannot be stored as EXR");
+    check_size(path, mean);
     for (const auto& [name, layer] : layers) check_layer(name, layer, mean);
     std::string bytes;
     try {

@@ -64,9 +64,7 @@ Header take_header(const fs::path& path, std::string_view& bytes)
     header.width = parse<int>(path, take_word(path, bytes));
     header.height = parse<int>(path, take_word(path, bytes));
     const auto scale = parse<double>(path, take_word(path, bytes, true));
-    if (!plausible_size(header.width, header.height))
-        throw ImageError(path, "absurd size " + std::to_string(header.width) + "x" +
-                                   std::to_string(header.height));
+    check_size(path, header.width, header.height);
     if (scale == 0.0 || !std::isfinite(scale)) throw ImageError(path, "the PFM scale must not be 0");
     header.little_endian = scale < 0.0;
     return header;
@@ -93,6 +91,7 @@ void append_float(std::string& bytes, double value)
 
 void write_pfm(const fs::path& path, const Image& image)
 {
+    check_size(path, image);
     std::string bytes =
         "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
     bytes.reserve(bytes.size() + image.pixels.size() * 3 * sizeof(float));

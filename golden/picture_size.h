@@ -1,15 +1,26 @@
 #pragma once
 
+#include "golden/image.h"
+#include "golden/image_error.h"
+
+#include <filesystem>
+#include <string>
+
 namespace golden {
 
-/// The largest picture that is read or written: what is beyond is a damaged header, not a picture.
-constexpr long long max_side = 1ll << 16;
-constexpr long long max_pixels = 1ll << 28;
-
-constexpr bool plausible_size(long long width, long long height)
+/// Throws ImageError unless a picture of this size can be stored: at least 1x1, at most 2^16 pixels a
+/// side and 2^28 together. What claims more is a damaged header, not a picture.
+inline void check_size(const std::filesystem::path& path, long long width, long long height)
 {
-    return width > 0 && height > 0 && width <= max_side && height <= max_side &&
-           width * height <= max_pixels;
+    constexpr long long max_side = 1ll << 16;
+    constexpr long long max_pixels = 1ll << 28;
+    if (width < 1 || height < 1 || width > max_side || height > max_side || width * height > max_pixels)
+        throw ImageError(path, "absurd size " + std::to_string(width) + "x" + std::to_string(height));
+}
+
+inline void check_size(const std::filesystem::path& path, const Image& image)
+{
+    check_size(path, image.width, image.height);
 }
 
 } // namespace golden

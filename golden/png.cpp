@@ -37,9 +37,7 @@ Srgb8 to_srgb8(const Rgb& linear, double exposure)
 
 void write_png(const std::filesystem::path& path, const Image& image, double exposure)
 {
-    if (!plausible_size(image.width, image.height))
-        throw ImageError(path, "a picture of " + std::to_string(image.width) + "x" +
-                                   std::to_string(image.height) + " pixels cannot be stored as PNG");
+    check_size(path, image);
     std::vector<std::uint8_t> bytes;
     bytes.reserve(image.pixels.size() * 3);
     for (const Rgb& pixel : image.pixels) {
