@@ -52,41 +52,39 @@ struct TriangleHit {
     Vec3 barycentric;
 };
 
-/// px qy - py qx: on which side of the line from `q` to `p` the ray passes. Its sign is exact.
+/// px qy - py qx to within two units of roundoff, whatever cancels: Kahan's determinant, with the
+/// rounding errors of both products, which fma gives exactly [Jeannerod, Louvet, Muller 2013].
+inline double accurate_edge_function(const Vec3& p, const Vec3& q)
+{
+    const double right = p.y * q.x;
+    const double error_of_right = std::fma(p.y, q.x, -right);
+    return std::fma(p.x, q.y, -right) - error_of_right;
+}
+
+/// px qy - py qx: on which side of the line from `q` to `p` the ray passes. The sign is exact.
 ///
 /// Rounding keeps order: where the exact products differ in one sense, the rounded ones do not differ in
-/// the other, so that a difference that is not 0 has the right sign. Where it is 0 the rounded products
-/// are equal, and the sign is that of the difference of their rounding errors; both errors are doubles,
-/// which fma gives exactly. (Single precision can multiply again in double [Woop et al. 2013, sec. 3.3];
-/// this is the same step where there is no wider type.) Both triangles at an edge get the same bits with
-/// opposite signs, so that no ray slips between them.
+/// the other, so a difference that is not 0 has the right sign. Where it is 0 the accurate one decides.
+/// (Single precision computes again in double [Woop et al. 2013, sec. 3.3]; this is that step where
+/// there is no wider type.) The two triangles at an edge see opposite signs: no ray slips between them.
 inline double edge_function(const Vec3& p, const Vec3& q)
 {
-    const double left = p.x * q.y;
-    const double right = p.y * q.x;
-    if (left != right) return left - right;
-    return std::fma(p.x, q.y, -left) - std::fma(p.y, q.x, -right);
+    const double difference = p.x * q.y - p.y * q.x;
+    return difference != 0 ? difference : accurate_edge_function(p, q);
 }
 
 /// Whether `limit` is beyond the hit: U (a - limit) + V (b - limit) + W (c - limit) has the opposite
-/// sign of U, V and W in spite of all rounding in it. a, b, c are the z of the vertices A, B, C.
+/// sign of U, V and W in spite of all rounding in it. z holds a, b, c: the t of the vertices.
 ///
-/// Clear if all vertices are on one side. Otherwise: an edge function px qy - py qx errs by at most
-/// gamma_2 (|px qy| + |py qx|), the product with z and the sum of three by another gamma_3 of the same,
-/// and the bound itself is computed with five roundings or fewer: gamma_12 of the sum of magnitudes
-/// covers all.
-inline bool certainly_before(const Vec3& A, const Vec3& B, const Vec3& C, const Vec3& UVW, double limit)
+/// Clear if all vertices are on one side. Otherwise U carries 2 roundings, the difference 1, the product
+/// 1 and the sum 2; the bound as computed carries as many again: gamma_12.
+inline bool certainly_before(const Vec3& UVW, const Vec3& z, double limit)
 {
-    const Vec3 z = Vec3(A.z, B.z, C.z) - limit;
-    if (z.x < 0 && z.y < 0 && z.z < 0) return true;
-    if (z.x >= 0 && z.y >= 0 && z.z >= 0) return false;
-    const auto size = [](const Vec3& p, const Vec3& q) {
-        return std::abs(p.x * q.y) + std::abs(p.y * q.x);
-    };
-    const Vec3 sizes(size(C, B), size(A, C), size(B, A));
-    const double volume = glm::dot(UVW, z);
-    const double sign = UVW.x + UVW.y + UVW.z < 0 ? -1 : 1;
-    return sign * volume < -gamma_bound(12) * glm::dot(sizes, glm::abs(z));
+    const Vec3 terms = UVW * (z - limit);
+    const double size = std::abs(terms.x) + std::abs(terms.y) + std::abs(terms.z);
+    const double sum = terms.x + terms.y + terms.z;
+    const bool negative = UVW.x + UVW.y + UVW.z < 0;
+    return (negative ? -sum : sum) < -gamma_bound(12) * size;
 }
 
 /// Watertight: the triangle with its edges and corners counts, decided by exact signs of U, V, W. Both
@@ -102,18 +100,18 @@ inline std::optional<TriangleHit> intersect_triangle(const ShearedRay& ray,
     const double U = edge_function(C, B);
     const double V = edge_function(A, C);
     const double W = edge_function(B, A);
-    const bool inside = std::min({U, V, W}) >= 0 || std::max({U, V, W}) <= 0;
-    const double det = U + V + W; // no cancellation: 0 only if all three are
-    if (!inside || det == 0) return std::nullopt;
+    if (std::min({U, V, W}) < 0 && std::max({U, V, W}) > 0) return std::nullopt;
 
-    // "t > 0" is "-t < 0": mirror z.
-    const auto mirrored = [](const Vec3& p) { return Vec3(p.x, p.y, -p.z); };
-    if (!certainly_before(mirrored(A), mirrored(B), mirrored(C), {U, V, W}, 0)) return std::nullopt;
-    if (std::isfinite(ray.t_max) && !certainly_before(A, B, C, {U, V, W}, ray.t_max))
-        return std::nullopt;
+    // The ray passes inside. Slivers need the weights themselves, not only their signs.
+    const Vec3 UVW(accurate_edge_function(C, B), accurate_edge_function(A, C),
+                   accurate_edge_function(B, A));
+    const double det = UVW.x + UVW.y + UVW.z; // no cancellation: 0 only if all three are
+    const Vec3 z(A.z, B.z, C.z);
+    if (det == 0 || !certainly_before(UVW, -z, 0)) return std::nullopt; // t > 0 is -t < 0
+    if (std::isfinite(ray.t_max) && !certainly_before(UVW, z, ray.t_max)) return std::nullopt;
 
-    const Vec3 barycentric = Vec3(U, V, W) / det;
-    const double t = glm::dot(barycentric, Vec3(A.z, B.z, C.z));
+    const Vec3 barycentric = UVW / det;
+    const double t = glm::dot(barycentric, z);
     if (!(t > 0 && t < ray.t_max)) return std::nullopt;
     return TriangleHit{t, barycentric};
 }
