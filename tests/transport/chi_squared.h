@@ -78,12 +78,10 @@ inline void expect_samples_follow_density(const Sampler& sample, const Density& 
     double statistic = 0.0;
     double pooled_expected = 0.0;
     double pooled_observed = 0.0;
+    double observed_at_zero = 0.0;
     int pools = 0;
     for (const std::size_t cell : order) {
-        if (expected[cell] == 0.0) {
-            EXPECT_EQ(observed[cell], 0.0) << "samples where the density is zero, cell " << cell;
-            continue;
-        }
+        if (expected[cell] == 0.0) observed_at_zero += observed[cell];
         pooled_expected += expected[cell] * count;
         pooled_observed += observed[cell];
         if (pooled_expected < 20.0 && cell != order.back()) continue;
@@ -92,6 +90,8 @@ inline void expect_samples_follow_density(const Sampler& sample, const Density& 
         ++pools;
         pooled_expected = pooled_observed = 0.0;
     }
+    // A corner of the density's support may slip between the midpoints of a cell, but not more.
+    EXPECT_LE(observed_at_zero, 20.0) << "samples where the density is zero";
     ASSERT_GT(pools, 1);
     const boost::math::chi_squared distribution(pools - 1);
     const double p = boost::math::cdf(boost::math::complement(distribution, statistic));

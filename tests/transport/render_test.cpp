@@ -1,0 +1,135 @@
+#include "ref/transport/path_tracer.h"
+#include "ref/transport/render.h"
+#include "tests/transport/scene_files.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+
+namespace {
+
+using ref::Contribution;
+using ref::Rgb;
+
+constexpr int width = 37; // no multiple of a tile
+constexpr int height = 21;
+
+const scenes::Scene& scene()
+{
+    static const scenes::Scene loaded = tests::our_scene("cornell_glass");
+    return loaded;
+}
+
+golden::Film rendered(ref::Integrator integrator, std::uint64_t batches, unsigned threads,
+                      golden::Film film = {width, height})
+{
+    const ref::World world(scene(), width, height);
+    EXPECT_TRUE(ref::render(world, integrator, {{.seed = 11}, batches, 2, threads}, film));
+    return film;
+}
+
+/// Splats on pixels far from its own, with sums that depend on their order: what a light walk does.
+void splash(const ref::World& world, const ref::PathOptions& /*options*/, const ref::SampleId& id,
+            std::vector<Contribution>& out)
+{
+    const auto u = ref::uniforms(id, ref::Event::camera);
+    const auto pixels = static_cast<double>(world.camera.width() * world.camera.height());
+    for (const double v : u)
+        out.push_back({static_cast<std::uint32_t>(v * pixels), 2, 1, Rgb(v * 1e-8, 1.0 / v, v), u[0]});
+    out.push_back({id.pixel, 0, 2, Rgb(u[1]), 1.0});
+}
+
+TEST(Render, DoesNotDependOnTheNumberOfThreads)
+{
+    for (const auto integrator : {ref::trace_path, splash}) {
+        const golden::Film one = rendered(integrator, 3, 1);
+        EXPECT_EQ(one, rendered(integrator, 3, 2));
+        EXPECT_EQ(one, rendered(integrator, 3, 7));
+    }
+}
+
+TEST(Render, GoesOnFromAnEarlierFilmAsIfNeverInterrupted)
+{
+    for (const auto integrator : {ref::trace_path, splash})
+        EXPECT_EQ(rendered(integrator, 7, 2), rendered(integrator, 7, 2, rendered(integrator, 3, 2)));
+}
+
+TEST(Render, StopsSoonWithWholeBatchesOnly)
+{
+    const golden::Film whole = rendered(splash, 5, 1);
+    const ref::World world(scene(), width, height);
+    for (const int limit : {1, 7, 20}) {
+        golden::Film film(width, height);
+        std::atomic<int> asked = 0;
+        const ref::Monitor monitor{{}, [&] { return ++asked > limit; }};
+        EXPECT_FALSE(ref::render(world, splash, {{.seed = 11}, 5, 2, 2}, film, monitor));
+        EXPECT_LT(film.batches(), 5u);
+        EXPECT_LE(asked, limit + 2); // each of two threads asks once more at most
+        EXPECT_EQ(rendered(splash, 5, 2, film), whole);
+    }
+}
+
+TEST(Render, SaysHowFarItIs)
+{
+    const ref::World world(scene(), width, height);
+    golden::Film film(width, height);
+    double last = 0.0;
+    EXPECT_TRUE(ref::render(world, splash, {{}, 3, 2, 2}, film,
+                            {[&](double done) {
+                                 EXPECT_GT(done, last);
+                                 last = done;
+                             },
+                             {}}));
+    EXPECT_EQ(last, 3.0);
+}
+
+// What one walk spreads over the film is shared by the samples per pixel, once.
+TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel)
+{
+    const auto one_each = [](const ref::World& /*world*/, const ref::PathOptions& /*options*/,
+                             const ref::SampleId& id, std::vector<Contribution>& out) {
+        out.push_back({(id.pixel + 100) % (width * height), 2, 1, Rgb(1.0, 2.0, 4.0), 0.5});
+    };
+    const golden::Film film = rendered(one_each, 2, 2);
+    for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(0.5, 1.0, 2.0));
+}
+
+TEST(Render, PassesOnWhatAnIntegratorThrows)
+{
+    const auto broken = [](const ref::World& /*world*/, const ref::PathOptions& /*options*/,
+                           const ref::SampleId& /*id*/,
+                           std::vector<Contribution>& /*out*/) { throw std::runtime_error("broken"); };
+    const ref::World world(scene(), width, height);
+    golden::Film film(width, height);
+    EXPECT_THROW(ref::render(world, broken, {{}, 3, 2, 2}, film), std::runtime_error);
+    EXPECT_EQ(film.batches(), 0u);
+}
+
+TEST(Render, RefusesAFilmOfAnotherSize)
+{
+    const ref::World world(scene(), width, height);
+    golden::Film film(height, width);
+    EXPECT_THROW(ref::render(world, splash, {}, film), std::invalid_argument);
+}
+
+// Pixels stand alone: a larger number of samples, another pixel or another order cannot change what a
+// given sample of a given pixel contributes.
+RC_GTEST_PROP(Render, ASampleCanBeComputedAlone, (std::uint64_t seed))
+{
+    const ref::World world(scene(), width, height);
+    const auto pixel = *rc::gen::inRange(0u, static_cast<std::uint32_t>(width * height));
+    const auto sample = *rc::gen::inRange(0u, 1000u);
+    std::vector<Contribution> a;
+    std::vector<Contribution> b;
+    ref::trace_path(world, {.seed = seed}, {seed, pixel, sample}, a);
+    ref::trace_path(world, {.seed = seed}, {seed, (pixel + 1) % (width * height), sample}, b);
+    b.clear();
+    ref::trace_path(world, {.seed = seed}, {seed, pixel, sample}, b);
+    RC_ASSERT(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        RC_ASSERT(a[i].value == b[i].value && a[i].weight == b[i].weight);
+}
+
+} // namespace
