@@ -1,0 +1,31 @@
+# PLUMBLINE_CUDA: AUTO uses nvcc where it is found, ON insists on it, OFF does without.
+# Sets PLUMBLINE_WITH_CUDA. Included by the top folder, because a language belongs to the folders below
+# the one that enables it, and programs outside cuda/ link device code.
+set(PLUMBLINE_WITH_CUDA OFF)
+if(NOT PLUMBLINE_CUDA STREQUAL "OFF")
+    include(CheckLanguage)
+    check_language(CUDA)
+    if(CMAKE_CUDA_COMPILER)
+        set(PLUMBLINE_WITH_CUDA ON)
+    elseif(PLUMBLINE_CUDA STREQUAL "ON")
+        message(FATAL_ERROR "PLUMBLINE_CUDA is ON but no nvcc was found: add its folder to PATH or set CUDACXX.")
+    endif()
+endif()
+
+if(PLUMBLINE_WITH_CUDA)
+    # "90" without a suffix: machine code for Hopper, and PTX for what comes after.
+    set(CMAKE_CUDA_ARCHITECTURES 90)
+    set(CMAKE_CUDA_RUNTIME_LIBRARY Static)
+    enable_language(CUDA)
+    # CMake 3.25 knows no C++20 for CUDA, and would pass no flag at all without a word.
+    set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION -std=c++20)
+    set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION -std=c++20)
+    set(CMAKE_CUDA_STANDARD 20)
+    set(CMAKE_CUDA_STANDARD_REQUIRED ON)
+    set(CMAKE_CUDA_EXTENSIONS OFF)
+    target_compile_options(plumbline_warnings INTERFACE
+        "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:-Werror all-warnings -Xcompiler=-Wall,-Wextra,-Werror>")
+    message(STATUS "Device code: nvcc ${CMAKE_CUDA_COMPILER_VERSION} (${CMAKE_CUDA_COMPILER}), sm_90 and PTX")
+else()
+    message(STATUS "Device code: none (PLUMBLINE_CUDA is ${PLUMBLINE_CUDA}, nvcc ${CMAKE_CUDA_COMPILER}); everything else is built")
+endif()
