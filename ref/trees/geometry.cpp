@@ -1,6 +1,6 @@
 #include "ref/trees/geometry.h"
 
-#include "ref/trees/intersect.h"
+#include "ref/trees/intersect_primitive.h"
 #include "ref/trees/rounding.h"
 
 #include <glm/common.hpp>
@@ -8,56 +8,37 @@
 
 namespace ref {
 
-namespace {
-
-/// The diagonal of the box around everything: no two points of surfaces are further apart.
-double box_diagonal(const scenes::Scene& scene)
+Geometry::Geometry(const scenes::Scene& scene, Builder builder)
+    : scene_(&scene), tree_(build(primitive_bounds(scene), builder)), diagonal_(0)
 {
-    Vec3 lower(std::numeric_limits<double>::infinity());
-    Vec3 upper = -lower;
-    const auto grow = [&](const Vec3& from, const Vec3& to) {
-        lower = glm::min(lower, from);
-        upper = glm::max(upper, to);
-    };
-    for (const scenes::Triangle& triangle : scene.triangles)
-        for (const Vec3& vertex : triangle.vertices) grow(vertex, vertex);
-    for (const scenes::Sphere& sphere : scene.spheres)
-        grow(sphere.center - sphere.radius, sphere.center + sphere.radius);
-    return primitive_count(scene) == 0 ? 0 : glm::length(upper - lower);
+    if (tree_.nodes.empty()) return;
+    const Aabb& box = tree_.nodes[0].bounds;
+    diagonal_ = glm::length(box.upper - box.lower);
 }
 
-} // namespace
-
-Geometry::Geometry(const scenes::Scene& scene) : scene_(&scene), diagonal_(box_diagonal(scene)) {}
-
-std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray)
+std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray, Work* work)
 {
-    const scenes::Scene& scene = geometry.scene();
     const ShearedRay sheared(ray);
     std::optional<Hit> closest;
-    std::uint32_t primitive = 0;
-    for (const scenes::Triangle& triangle : scene.triangles) {
-        const auto hit = intersect_triangle(sheared, triangle.vertices);
-        if (hit && (!closest || hit->t < closest->t)) closest = Hit{hit->t, primitive, hit->barycentric};
-        ++primitive;
-    }
-    for (const scenes::Sphere& sphere : scene.spheres) {
-        const auto t = intersect_sphere(ray, sphere.center, sphere.radius);
-        if (t && (!closest || *t < closest->t)) closest = Hit{*t, primitive, Vec3(0)};
-        ++primitive;
-    }
+    const Work done = traverse(geometry.tree(), ray, [&](std::uint32_t primitive) {
+        const auto hit = intersect_primitive(geometry.scene(), ray, sheared, primitive);
+        if (hit && (!closest || comes_before(*hit, *closest))) closest = hit;
+        return closest ? closest->t : ray.t_max;
+    });
+    if (work != nullptr) *work += done;
     return closest;
 }
 
-bool occluded(const Geometry& geometry, const Ray& ray)
+bool occluded(const Geometry& geometry, const Ray& ray, Work* work)
 {
-    const scenes::Scene& scene = geometry.scene();
     const ShearedRay sheared(ray);
-    for (const scenes::Triangle& triangle : scene.triangles)
-        if (intersect_triangle(sheared, triangle.vertices)) return true;
-    for (const scenes::Sphere& sphere : scene.spheres)
-        if (intersect_sphere(ray, sphere.center, sphere.radius)) return true;
-    return false;
+    bool hit = false;
+    const Work done = traverse(geometry.tree(), ray, [&](std::uint32_t primitive) {
+        hit = hit || intersect_primitive(geometry.scene(), ray, sheared, primitive);
+        return hit ? -1 : ray.t_max;
+    });
+    if (work != nullptr) *work += done;
+    return hit;
 }
 
 // How far must a point be from a surface so that rays may start and segments end there?

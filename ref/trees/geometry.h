@@ -2,31 +2,37 @@
 
 // The surfaces of a scene behind two questions: what does this ray hit first, and does it hit anything?
 
+#include "ref/trees/bvh.h"
 #include "ref/trees/ray.h"
+#include "ref/trees/traverse.h"
 
 #include <optional>
 
 namespace ref {
 
 /// A scene's triangles and spheres, made ready for ray queries. Keeps a reference to the scene, which
-/// must outlive it.
+/// must outlive it. The answers do not depend on the builder, only the time they take.
 class Geometry {
 public:
-    explicit Geometry(const scenes::Scene& scene);
+    /// Throws std::invalid_argument that names the first primitive with a coordinate that is no number.
+    explicit Geometry(const scenes::Scene& scene, Builder builder = Builder::sah_leaf);
     [[nodiscard]] const scenes::Scene& scene() const { return *scene_; }
+    [[nodiscard]] const Tree& tree() const { return tree_; }
     /// Of the box around all primitives: an upper bound on the distance between two points of surfaces.
     [[nodiscard]] double diagonal() const { return diagonal_; }
 
 private:
     const scenes::Scene* scene_;
+    Tree tree_;
     double diagonal_;
 };
 
-/// The hit of smallest t; of several at the same t, that of the lowest primitive number.
-std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray);
+/// The hit of smallest t; of several at the same t, that of the lowest primitive number. Adds to `work`,
+/// if there is one, what it took.
+std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray, Work* work = nullptr);
 
 /// Whether the ray hits anything at all.
-bool occluded(const Geometry& geometry, const Ray& ray);
+bool occluded(const Geometry& geometry, const Ray& ray, Work* work = nullptr);
 
 /// The surface at `hit`, which must come from `intersect` on the same geometry and ray.
 SurfacePoint surface_point(const Geometry& geometry, const Ray& ray, const Hit& hit);

@@ -1,0 +1,60 @@
+#pragma once
+
+// Axis-aligned boxes.
+
+#include "scenes/scene.h"
+
+#include <glm/common.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace ref {
+
+using scenes::Vec3;
+
+/// All points between two corners, faces included. The default is empty: the neutral element of `unite`.
+struct Aabb {
+    Vec3 lower = Vec3(std::numeric_limits<double>::infinity());
+    Vec3 upper = Vec3(-std::numeric_limits<double>::infinity());
+    friend bool operator==(const Aabb&, const Aabb&) = default;
+};
+
+/// The smallest box around both. Rounds nothing: all its coordinates are coordinates of `a` or `b`.
+inline Aabb unite(const Aabb& a, const Aabb& b)
+{
+    return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)};
+}
+
+inline Aabb intersection(const Aabb& a, const Aabb& b)
+{
+    return {glm::max(a.lower, b.lower), glm::min(a.upper, b.upper)};
+}
+
+inline bool is_empty(const Aabb& box)
+{
+    return box.lower.x > box.upper.x || box.lower.y > box.upper.y || box.lower.z > box.upper.z;
+}
+
+/// Half the surface area (all that ratios need); 0 for an empty box.
+inline double half_area(const Aabb& box)
+{
+    if (is_empty(box)) return 0;
+    const Vec3 d = box.upper - box.lower;
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+/// The middle; does not overflow.
+inline Vec3 centroid(const Aabb& box)
+{
+    return {std::midpoint(box.lower.x, box.upper.x), std::midpoint(box.lower.y, box.upper.y),
+            std::midpoint(box.lower.z, box.upper.z)};
+}
+
+inline bool is_finite(const Vec3& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+} // namespace ref

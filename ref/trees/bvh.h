@@ -1,0 +1,34 @@
+#pragma once
+
+// From boxes to a tree, by any of the builders.
+
+#include "ref/trees/tree.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace ref {
+
+enum class Builder {
+    morton30, // radix tree over Morton codes of 10 bits per axis [Karras 2012]
+    morton63, // the same with 21 bits per axis
+    sah,      // full sweep of the surface area heuristic, one primitive per leaf
+    sah_leaf, // the same with up to 8 primitives per leaf where that is expected to be cheaper
+};
+
+/// The box of every primitive, in the order of their numbers. Boxes of spheres are rounded outwards.
+/// Throws std::invalid_argument that names the first primitive with a coordinate that is NaN or
+/// infinite.
+std::vector<Aabb> primitive_bounds(const scenes::Scene& scene);
+
+/// The Morton codes of the boxes' centroids in the grid that spans all centroids.
+std::vector<std::uint64_t> morton_codes(std::span<const Aabb> boxes, int bits_per_axis);
+
+/// A tree over any number of boxes, none included. Flat, coincident and point-like boxes are legal.
+/// Throws std::invalid_argument that names the first box that is empty, or has a coordinate that is NaN
+/// or infinite.
+Tree build(std::span<const Aabb> boxes, Builder builder);
+
+} // namespace ref

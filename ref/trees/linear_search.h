@@ -1,0 +1,20 @@
+#pragma once
+
+// The closest hit by testing every primitive: what every tree must agree with, bit for bit.
+
+#include "ref/trees/intersect_primitive.h"
+
+namespace ref {
+
+inline std::optional<Hit> intersect_by_linear_search(const scenes::Scene& scene, const Ray& ray)
+{
+    const ShearedRay sheared(ray);
+    std::optional<Hit> closest;
+    for (std::uint32_t primitive = 0; primitive < scenes::primitive_count(scene); ++primitive) {
+        const auto hit = intersect_primitive(scene, ray, sheared, primitive);
+        if (hit && (!closest || comes_before(*hit, *closest))) closest = hit;
+    }
+    return closest;
+}
+
+} // namespace ref

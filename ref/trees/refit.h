@@ -1,0 +1,46 @@
+#pragma once
+
+// Boxes from the leaves up to the root, each inner box once both its children's are known
+// [Karras 2012, sec. 4; after Apetrei 2014 for the counting].
+
+#include "ref/trees/tree.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace ref {
+
+/// Sets all boxes of `tree` from those of the primitives. Every leaf walks towards the root. Of the two
+/// walks that arrive at a node the first stops there, since the other child has no box yet; the second
+/// unites the boxes and goes on. `leaf_order` is the order in which leaves set out, any permutation of
+/// them: the boxes do not depend on it. (In parallel the count must be one atomic step that also
+/// publishes the child's box; without it the second walk may read a box that is not there yet.)
+inline void refit(Tree& tree, std::span<const Aabb> primitive_bounds,
+                  std::span<const std::uint32_t> leaf_order)
+{
+    std::vector<std::uint8_t> arrivals(tree.internal_count(), 0);
+    for (const std::uint32_t leaf : leaf_order) {
+        std::uint32_t node = tree.internal_count() + leaf;
+        tree.nodes[node].bounds = Aabb{};
+        for (std::uint32_t i = tree.leaf_begin[leaf]; i < tree.leaf_begin[leaf + 1]; ++i)
+            tree.nodes[node].bounds =
+                unite(tree.nodes[node].bounds, primitive_bounds[tree.primitives[i]]);
+        for (;;) {
+            node = tree.nodes[node].parent;
+            if (node == no_node || arrivals[node]++ == 0) break;
+            const auto [left, right] = tree.nodes[node].children;
+            tree.nodes[node].bounds = unite(tree.nodes[left].bounds, tree.nodes[right].bounds);
+        }
+    }
+}
+
+/// The same with the leaves from left to right.
+inline void refit(Tree& tree, std::span<const Aabb> primitive_bounds)
+{
+    std::vector<std::uint32_t> leaves(tree.leaf_count());
+    for (std::uint32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) leaves[leaf] = leaf;
+    refit(tree, primitive_bounds, leaves);
+}
+
+} // namespace ref

@@ -1,0 +1,154 @@
+#include "ref/trees/sah.h"
+
+#include "ref/trees/refit.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace ref {
+
+namespace {
+
+/// The same primitives in the order of their centroids along x, y and z. Splitting a node divides its
+/// range of each list in two, in order: nothing is sorted twice.
+using SortedLists = std::array<std::vector<std::uint32_t>, 3>;
+
+SortedLists sort_along_axes(std::span<const Aabb> boxes)
+{
+    SortedLists lists;
+    std::vector<double> middle(boxes.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < boxes.size(); ++i) middle[i] = centroid(boxes[i])[axis];
+        std::vector<std::uint32_t>& list = lists[static_cast<std::size_t>(axis)];
+        list.resize(boxes.size());
+        std::iota(list.begin(), list.end(), 0);
+        std::stable_sort(list.begin(), list.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return middle[a] < middle[b]; });
+    }
+    return lists;
+}
+
+/// `left` primitives in the order of `axis` go to the left child. `cost` is A_left N_left + A_right
+/// N_right: the expected number of primitives tested, times the area of the node.
+struct Split {
+    std::size_t axis;
+    std::size_t left;
+    double cost;
+};
+
+/// How far the sizes of the children are from each other.
+std::size_t imbalance(const Split& split, std::size_t count)
+{
+    return std::max(2 * split.left, count) - std::min(2 * split.left, count);
+}
+
+/// The best of all splits of `count` primitives from `first` on; the most balanced of several equally
+/// good, so that coincident boxes do not make a chain.
+Split best_split(std::span<const Aabb> boxes, const SortedLists& lists, std::size_t first,
+                 std::size_t count, std::vector<double>& right_cost)
+{
+    Split best{0, 0, std::numeric_limits<double>::infinity()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::uint32_t* const list = lists[axis].data() + first;
+        Aabb right;
+        for (std::size_t i = count - 1; i > 0; --i) {
+            right = unite(right, boxes[list[i]]);
+            right_cost[i] = half_area(right) * static_cast<double>(count - i);
+        }
+        Aabb left;
+        for (std::size_t i = 1; i < count; ++i) {
+            left = unite(left, boxes[list[i - 1]]);
+            const Split split{axis, i, half_area(left) * static_cast<double>(i) + right_cost[i]};
+            if (split.cost < best.cost || best.left == 0 ||
+                (split.cost == best.cost && imbalance(split, count) < imbalance(best, count)))
+                best = split;
+        }
+    }
+    return best;
+}
+
+/// Primitives `first` on of every list, waiting to become a node.
+struct Task {
+    std::size_t first;
+    std::size_t count;
+    std::uint32_t parent;
+    std::size_t side; // which child of the parent
+    int depth;
+};
+
+/// Below this depth nodes are cut in halves: so the depth, and with it the time to build, is bounded
+/// even for inputs where the best split always takes away a single primitive.
+constexpr int max_sah_depth = 64;
+
+} // namespace
+
+Tree build_sah(std::span<const Aabb> boxes, std::size_t max_leaf_size)
+{
+    Tree tree;
+    if (boxes.empty()) return tree;
+    SortedLists lists = sort_along_axes(boxes);
+    std::vector<double> right_cost(boxes.size());
+    std::vector<std::uint8_t> goes_left(boxes.size());
+    std::vector<std::uint32_t> scratch;
+    std::vector<Node> leaves;
+
+    // Children of internal nodes that are leaves are marked until the number of internal nodes is known.
+    constexpr std::uint32_t leaf_mark = 0x8000'0000;
+    std::vector<Task> tasks{{0, boxes.size(), no_node, 0, 0}};
+    while (!tasks.empty()) {
+        const Task task = tasks.back();
+        tasks.pop_back();
+        const std::size_t end = task.first + task.count;
+
+        Split split{0, task.count / 2, 0};
+        bool is_leaf = task.count == 1;
+        if (!is_leaf && task.depth < max_sah_depth) {
+            split = best_split(boxes, lists, task.first, task.count, right_cost);
+            Aabb bounds;
+            for (std::size_t i = task.first; i < end; ++i) bounds = unite(bounds, boxes[lists[0][i]]);
+            const double leaf_cost = C_isect * half_area(bounds) * static_cast<double>(task.count);
+            is_leaf = task.count <= max_leaf_size &&
+                      leaf_cost <= C_trav * half_area(bounds) + C_isect * split.cost;
+        }
+
+        const auto number = static_cast<std::uint32_t>(is_leaf ? leaves.size() : tree.nodes.size());
+        if (task.parent != no_node)
+            tree.nodes[task.parent].children[task.side] = is_leaf ? number | leaf_mark : number;
+        Node node;
+        node.parent = task.parent;
+        if (is_leaf) {
+            leaves.push_back(node);
+            tree.leaf_begin.push_back(static_cast<std::uint32_t>(task.first));
+            continue;
+        }
+        tree.nodes.push_back(node);
+
+        for (std::size_t i = task.first; i < end; ++i)
+            goes_left[lists[split.axis][i]] = i < task.first + split.left ? 1 : 0;
+        for (std::vector<std::uint32_t>& list : lists) {
+            const auto begin = list.begin() + static_cast<std::ptrdiff_t>(task.first);
+            const auto list_end = list.begin() + static_cast<std::ptrdiff_t>(end);
+            scratch.assign(begin, list_end);
+            const auto middle = std::copy_if(scratch.begin(), scratch.end(), begin,
+                                             [&](std::uint32_t p) { return goes_left[p] != 0; });
+            std::copy_if(scratch.begin(), scratch.end(), middle,
+                         [&](std::uint32_t p) { return goes_left[p] == 0; });
+        }
+        // The left child comes off the list first: leaves are numbered from left to right.
+        tasks.push_back({task.first + split.left, task.count - split.left, number, 1, task.depth + 1});
+        tasks.push_back({task.first, split.left, number, 0, task.depth + 1});
+    }
+
+    for (Node& node : tree.nodes)
+        for (std::uint32_t& child : node.children)
+            if ((child & leaf_mark) != 0)
+                child = static_cast<std::uint32_t>(tree.nodes.size()) + (child & ~leaf_mark);
+    tree.nodes.insert(tree.nodes.end(), leaves.begin(), leaves.end());
+    tree.leaf_begin.push_back(static_cast<std::uint32_t>(boxes.size()));
+    tree.primitives = std::move(lists[0]);
+    refit(tree, boxes);
+    return tree;
+}
+
+} // namespace ref

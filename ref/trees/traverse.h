@@ -1,0 +1,120 @@
+#pragma once
+
+// A ray's way through a tree: into every box that it enters, the nearer child first.
+
+#include "ref/trees/ray.h"
+#include "ref/trees/rounding.h"
+#include "ref/trees/tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory_resource>
+#include <vector>
+
+namespace ref {
+
+/// A ray made ready to be tested against boxes, slab by slab [Kay and Kajiya 1986].
+///
+/// The test must not miss what intersect.h hits, and that sees primitives perturbed by rounding. Let u
+/// be the unit roundoff and m the largest coordinate of b - o, o the origin, over all corners b of the
+/// root's box. The point of a hit, o + t d for the t that is reported, lies within 15 u m of the
+/// triangle's box on every axis: 7 u m for the shear (see geometry.cpp), 8 u m for the roundings of the
+/// weights and the sum in t, of which all else is exact for the perturbed triangle. For a sphere, |l|
+/// and c carry 12 u m. Here the subtraction b - o, the reciprocal and the product carry 1 u m each. So
+/// boxes are padded by 32 u m on each side, and no comparison needs a tolerance. (For float, and boxes
+/// alone: [Ize 2013].)
+class Slabs {
+public:
+    Slabs(const Ray& ray, const Aabb& root) : origin_(ray.origin), reciprocal_(1.0 / ray.direction)
+    {
+        const Vec3 reach = glm::max(glm::abs(root.lower - origin_), glm::abs(root.upper - origin_));
+        padding_ = Vec3(32 * unit_roundoff * std::max({reach.x, reach.y, reach.z}));
+    }
+
+    /// The smallest t >= 0 at which the ray is in `box`, or infinity if there is none.
+    [[nodiscard]] double entry(const Aabb& box) const
+    {
+        const Vec3 lower = (box.lower - origin_ - padding_) * reciprocal_;
+        const Vec3 upper = (box.upper - origin_ + padding_) * reciprocal_;
+        double near = 0;
+        double far = std::numeric_limits<double>::infinity();
+        for (int axis = 0; axis < 3; ++axis) {
+            const bool descending = reciprocal_[axis] < 0; // true for -1/0: -0 is handled as it comes
+            const double enter = descending ? upper[axis] : lower[axis];
+            const double leave = descending ? lower[axis] : upper[axis];
+            // 0 * infinity, a ray in the very face of the slab, is NaN: these comparisons pass it over.
+            if (enter > near) near = enter;
+            if (leave < far) far = leave;
+        }
+        return near <= far ? near : std::numeric_limits<double>::infinity();
+    }
+
+private:
+    Vec3 origin_;
+    Vec3 reciprocal_;
+    Vec3 padding_;
+};
+
+/// How much work a traversal was.
+struct Work {
+    std::uint64_t nodes = 0;      // boxes that the ray entered, leaves included
+    std::uint64_t primitives = 0; // primitives tested
+    Work& operator+=(const Work& other)
+    {
+        nodes += other.nodes;
+        primitives += other.primitives;
+        return *this;
+    }
+};
+
+/// Calls `test(primitive)` for the primitives of every leaf whose box the ray enters at a t <= limit.
+/// `test` returns the limit from then on: the t of the closest hit so far, or a negative number to stop.
+///
+/// Boxes that are entered exactly at the limit are looked at: they may hold a primitive of lower number
+/// at the same t. The stack grows as it must; the tree may have any depth.
+template <typename Test>
+Work traverse(const Tree& tree, const Ray& ray, Test test)
+{
+    Work work;
+    if (tree.nodes.empty()) return work;
+    const Slabs slabs(ray, tree.nodes[0].bounds);
+    double limit = ray.t_max;
+
+    struct Entry {
+        double t;
+        std::uint32_t node;
+    };
+    std::array<std::byte, 64 * sizeof(Entry)> buffer; // enough for most trees; from the heap beyond
+    std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
+    std::pmr::vector<Entry> stack(&memory);
+    stack.reserve(64);
+
+    const auto push = [&](const Entry& entry) {
+        if (entry.t <= limit && entry.t < std::numeric_limits<double>::infinity())
+            stack.push_back(entry);
+    };
+    push({slabs.entry(tree.nodes[0].bounds), 0});
+    while (!stack.empty()) {
+        const Entry entry = stack.back();
+        stack.pop_back();
+        if (!(entry.t <= limit)) continue; // something nearer has been found meanwhile
+        ++work.nodes;
+        if (tree.is_leaf(entry.node)) {
+            const std::uint32_t leaf = tree.leaf(entry.node);
+            for (std::uint32_t i = tree.leaf_begin[leaf]; i < tree.leaf_begin[leaf + 1]; ++i) {
+                ++work.primitives;
+                limit = test(tree.primitives[i]);
+            }
+            continue;
+        }
+        const auto [left, right] = tree.nodes[entry.node].children;
+        const Entry a{slabs.entry(tree.nodes[left].bounds), left};
+        const Entry b{slabs.entry(tree.nodes[right].bounds), right};
+        push(a.t <= b.t ? b : a);
+        push(a.t <= b.t ? a : b);
+    }
+    return work;
+}
+
+} // namespace ref
