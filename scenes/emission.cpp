@@ -7,45 +7,64 @@
 namespace scenes {
 namespace {
 
-bool is_black(const Rgb& color)
+bool is_emissive(const Material& material)
 {
-    return color == Rgb(0.0);
+    const auto* emission = std::get_if<Emission>(&material);
+    return emission != nullptr && emission->radiance != Rgb(0.0);
 }
 
-bool has_area(const Triangle& triangle)
+bool any_shines(const auto& lights)
 {
-    const auto& v = triangle.vertices;
-    return glm::cross(v[1] - v[0], v[2] - v[0]) != Vec3(0.0);
+    return std::any_of(lights.begin(), lights.end(),
+                       [](const auto& light) { return is_emitter(light); });
 }
 
 } // namespace
 
-bool is_emissive(const Material& material)
+bool is_emitter(const Scene& scene, const Triangle& triangle)
 {
-    const auto* emission = std::get_if<Emission>(&material);
-    return emission != nullptr && !is_black(emission->radiance);
+    const auto& v = triangle.vertices;
+    return is_emissive(scene.materials[triangle.material]) &&
+           glm::cross(v[1] - v[0], v[2] - v[0]) != Vec3(0.0);
+}
+
+bool is_emitter(const Scene& scene, const Sphere& sphere)
+{
+    return is_emissive(scene.materials[sphere.material]);
+}
+
+bool is_emitter(const PointLight& light)
+{
+    return light.intensity != Rgb(0.0);
+}
+
+bool is_emitter(const DirectionalLight& light)
+{
+    return light.irradiance != Rgb(0.0);
+}
+
+bool is_emitter(const SpotLight& light)
+{
+    return light.intensity != Rgb(0.0);
+}
+
+bool has_environment(const Scene& scene)
+{
+    return scene.environment && *scene.environment != Rgb(0.0);
 }
 
 bool has_emissive_geometry(const Scene& scene)
 {
-    const auto shines = [&](const auto& primitive) {
-        return is_emissive(scene.materials[primitive.material]);
-    };
-    return std::any_of(scene.spheres.begin(), scene.spheres.end(), shines) ||
-           std::any_of(scene.triangles.begin(), scene.triangles.end(),
-                       [&](const Triangle& triangle) { return shines(triangle) && has_area(triangle); });
+    const auto shines = [&](const auto& primitive) { return is_emitter(scene, primitive); };
+    return std::any_of(scene.triangles.begin(), scene.triangles.end(), shines) ||
+           std::any_of(scene.spheres.begin(), scene.spheres.end(), shines);
 }
 
 bool has_emitter(const Scene& scene)
 {
-    const auto any = [](const auto& lights, auto strength) {
-        return std::any_of(lights.begin(), lights.end(),
-                           [&](const auto& light) { return !is_black(light.*strength); });
-    };
-    return has_emissive_geometry(scene) || any(scene.point_lights, &PointLight::intensity) ||
-           any(scene.directional_lights, &DirectionalLight::irradiance) ||
-           any(scene.spot_lights, &SpotLight::intensity) ||
-           (scene.environment && !is_black(*scene.environment));
+    return has_emissive_geometry(scene) || any_shines(scene.point_lights) ||
+           any_shines(scene.directional_lights) || any_shines(scene.spot_lights) ||
+           has_environment(scene);
 }
 
 } // namespace scenes

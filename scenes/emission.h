@@ -1,18 +1,22 @@
 #pragma once
 
-// Which surfaces of a scene shine.
+// What shines in a scene. Black light does not, and neither does a surface without area.
 
 #include "scenes/scene.h"
 
 namespace scenes {
 
-/// Whether the material emits any light at all: an emission that is not black.
-bool is_emissive(const Material& material);
+bool is_emitter(const Scene& scene, const Triangle& triangle);
+bool is_emitter(const Scene& scene, const Sphere& sphere);
+bool is_emitter(const PointLight& light);
+bool is_emitter(const DirectionalLight& light);
+bool is_emitter(const SpotLight& light);
+bool has_environment(const Scene& scene);
 
-/// Whether a triangle of non-zero area or a sphere has an emissive material.
+/// Whether some triangle or sphere shines.
 bool has_emissive_geometry(const Scene& scene);
 
-/// Whether anything in the scene shines: geometry, a light or the environment, and not with black light.
+/// Whether anything shines: geometry, a light or the environment.
 bool has_emitter(const Scene& scene);
 
 } // namespace scenes

@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <cmath>
+
 namespace scenes {
 
 void frame_camera(Scene& scene)
@@ -13,7 +15,9 @@ void frame_camera(Scene& scene)
     const std::optional<Bounds> box = bounds(scene);
     if (!box) throw SceneError(scene.name + ": nothing to frame: the scene has no geometry");
     const Vec3 center = 0.5 * box->min + 0.5 * box->max; // halves first: the sum may overflow
-    scene.camera->eye = center + 1.5 * glm::length(box->max - box->min) * scene.camera->backward;
+    const double diagonal = glm::length(box->max - box->min);
+    if (!std::isfinite(diagonal)) throw SceneError(scene.name + ": too large to frame");
+    scene.camera->eye = center + 1.5 * diagonal * scene.camera->backward;
 }
 
 } // namespace scenes

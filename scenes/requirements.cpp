@@ -21,25 +21,21 @@
 
 #include "scenes/emission.h"
 
-#include <glm/geometric.hpp>
-
+#include <algorithm>
 #include <variant>
 
 namespace scenes {
 namespace {
 
-/// Notes what a primitive of that shape and material asks for.
-void require_surface(Requirements& needs, Shape shape, const Material& material, bool& joinable)
+/// Notes what a surface of that material asks for, apart from its light.
+void require_surface(Requirements& needs, const Material& material, bool& joinable)
 {
-    needs.shapes.insert(shape);
     if (const auto* lambertian = std::get_if<Lambertian>(&material)) {
         needs.bsdfs.insert(Bsdf::lambertian);
         joinable = joinable || lambertian->albedo != Rgb(0.0);
     }
     if (std::holds_alternative<Mirror>(material)) needs.bsdfs.insert(Bsdf::mirror);
     if (std::holds_alternative<Glass>(material)) needs.bsdfs.insert(Bsdf::glass);
-    if (is_emissive(material))
-        needs.emitters.insert(shape == Shape::sphere ? Emitter::sphere : Emitter::mesh);
 }
 
 std::set<Strategy> strategies(const std::set<Emitter>& emitters, bool joinable)
@@ -53,24 +49,67 @@ std::set<Strategy> strategies(const std::set<Emitter>& emitters, bool joinable)
     return possible;
 }
 
+template <class Enumeration, std::size_t count>
+std::string_view pick(const std::array<std::string_view, count>& names, Enumeration enumerator)
+{
+    static_assert(count == all_of<Enumeration>.size());
+    return names.at(static_cast<std::size_t>(enumerator));
+}
+
 } // namespace
+
+std::string_view name_of(Shape shape)
+{
+    return pick(std::array<std::string_view, 2>{"triangle", "sphere"}, shape);
+}
+
+std::string_view name_of(Bsdf bsdf)
+{
+    return pick(std::array<std::string_view, 3>{"lambertian", "mirror", "glass"}, bsdf);
+}
+
+std::string_view name_of(Emitter emitter)
+{
+    return pick(
+        std::array<std::string_view, 6>{"mesh", "sphere", "point", "directional", "spot", "environment"},
+        emitter);
+}
+
+std::string_view name_of(Strategy strategy)
+{
+    return pick(
+        std::array<std::string_view, 4>{"emission_hit", "next_event", "light_image", "inner_connection"},
+        strategy);
+}
+
+std::string_view name_of(FovAxis axis)
+{
+    return pick(std::array<std::string_view, 2>{"horizontal", "vertical"}, axis);
+}
 
 Requirements requirements(const Scene& scene)
 {
     Requirements needs;
     bool joinable = false; // some surface can be joined to
-    for (const Triangle& triangle : scene.triangles)
-        require_surface(needs, Shape::triangle, scene.materials[triangle.material], joinable);
-    for (const Sphere& sphere : scene.spheres)
-        require_surface(needs, Shape::sphere, scene.materials[sphere.material], joinable);
-
+    for (const Triangle& triangle : scene.triangles) {
+        needs.shapes.insert(Shape::triangle);
+        require_surface(needs, scene.materials[triangle.material], joinable);
+        if (is_emitter(scene, triangle)) needs.emitters.insert(Emitter::mesh);
+    }
+    for (const Sphere& sphere : scene.spheres) {
+        needs.shapes.insert(Shape::sphere);
+        require_surface(needs, scene.materials[sphere.material], joinable);
+        if (is_emitter(scene, sphere)) needs.emitters.insert(Emitter::sphere);
+    }
     const auto require = [&](Emitter emitter, const auto& lights) {
-        if (!lights.empty()) needs.emitters.insert(emitter);
+        if (std::any_of(lights.begin(), lights.end(),
+                        [](const auto& light) { return is_emitter(light); }))
+            needs.emitters.insert(emitter);
     };
     require(Emitter::point, scene.point_lights);
     require(Emitter::directional, scene.directional_lights);
     require(Emitter::spot, scene.spot_lights);
-    if (scene.environment) needs.emitters.insert(Emitter::environment);
+    if (has_environment(scene)) needs.emitters.insert(Emitter::environment);
 
     if (scene.camera) {
         needs.fov_axes.insert(scene.camera->fov_axis);

@@ -6,12 +6,15 @@
 
 #include <array>
 #include <set>
+#include <string_view>
 
 namespace scenes {
 
 enum class Shape { triangle, sphere };
 enum class Bsdf { lambertian, mirror, glass };
 enum class Emitter { mesh, sphere, point, directional, spot, environment };
+
+// Enumerators are numbered from 0 in the order of all_of, which name_of relies on.
 
 /// The four families of bidirectional strategies, s vertices on the light subpath and t on the eye
 /// subpath [Veach 1997, sec. 10.2]:
@@ -36,6 +39,13 @@ inline constexpr std::array all_of<Strategy>{Strategy::emission_hit, Strategy::n
                                              Strategy::light_image, Strategy::inner_connection};
 template <>
 inline constexpr std::array all_of<FovAxis>{FovAxis::horizontal, FovAxis::vertical};
+
+/// The enumerator as it is written in this file: name_of(Bsdf::mirror) is "mirror".
+std::string_view name_of(Shape shape);
+std::string_view name_of(Bsdf bsdf);
+std::string_view name_of(Emitter emitter);
+std::string_view name_of(Strategy strategy);
+std::string_view name_of(FovAxis axis);
 
 /// What a scene uses. `strategies` holds those that can carry light for some path in it, as far as
 /// materials and emitters alone can tell (see requirements.cpp); visibility is not considered.

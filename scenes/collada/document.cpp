@@ -79,8 +79,9 @@ public:
 
     bool Visit(const tinyxml2::XMLUnknown& unknown) override
     {
+        const std::string_view value = unknown.Value();
         fail_at_line(file_name_of(unknown), unknown.GetLineNum(),
-                     "<!" + std::string(unknown.Value()).substr(0, 7) +
+                     "<!" + legible(value.substr(0, value.find_first_of(" \t\r\n"))) +
                          ">: declarations are not allowed");
     }
 
@@ -111,14 +112,17 @@ void check_top_level(const tinyxml2::XMLDocument& xml, const std::string& file_n
 
 } // namespace
 
-Document::Document(std::string_view xml, std::string file_name)
-    : file_name_(std::make_unique<std::string>(std::move(file_name))),
+Document::Document(std::string_view xml, const std::string& file_name)
+    : file_name_(std::make_unique<std::string>(legible(file_name))),
       xml_(std::make_unique<tinyxml2::XMLDocument>())
 {
     if (xml.empty()) fail_at_line(*file_name_, 1, "the file is empty");
     check_encoding(xml, *file_name_);
     xml_->SetUserData(file_name_.get());
-    if (xml_->Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS)
+    xml_->Parse(xml.data(), xml.size());
+    if (xml_->ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED)
+        fail_at_line(*file_name_, xml_->ErrorLineNum(), "elements nested deeper than 100");
+    if (xml_->Error())
         fail_at_line(*file_name_, std::max(1, xml_->ErrorLineNum()),
                      "not well-formed XML: " + words_of(xml_->ErrorName()));
     Inspector inspector(elements_by_id_);
@@ -136,7 +140,7 @@ const Element& Document::target(const Element& from, const char* attribute,
     const auto found = elements_by_id_.find(url.substr(1));
     if (found == elements_by_id_.end()) fail(from, "nothing has the id " + in_quotes(url.substr(1)));
     if (found->second->Name() != expected)
-        fail(from, in_quotes(url) + " is a <" + found->second->Name() + ">, not a <" +
+        fail(from, in_quotes(url) + " is a " + in_brackets(*found->second) + ", not a <" +
                        std::string(expected) + ">");
     return *found->second;
 }

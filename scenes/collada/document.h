@@ -20,7 +20,7 @@ using Element = tinyxml2::XMLElement;
 /// 100, and for an id or an attribute given twice.
 class Document {
 public:
-    Document(std::string_view xml, std::string file_name);
+    Document(std::string_view xml, const std::string& file_name);
 
     [[nodiscard]] const Element& root() const { return *xml_->RootElement(); }
 
@@ -41,8 +41,12 @@ std::string describe(const Element& element);
 std::string place(const Element& element);
 /// Throws SceneError with place(at) and `what`.
 [[noreturn]] void fail(const Element& at, const std::string& what);
-/// `text` between quotation marks and cut short, with control characters replaced: fit for a message.
+/// `text` cut short, with control characters replaced: fit for a message of one line.
+std::string legible(std::string_view text);
+/// The same between quotation marks.
 std::string in_quotes(std::string_view text);
+/// The name of `element` between angle brackets: `<light>`.
+std::string in_brackets(const Element& element);
 
 /// The value of an attribute that must be there; fails otherwise.
 std::string_view required_attribute(const Element& element, const char* name);
@@ -59,7 +63,8 @@ const Element& required_child(const Element& parent, const char* name);
 /// Where the CMU462 profile can say something.
 enum class Cmu462 { refused, understood };
 /// Fails at the first child of `parent` that is not one of `known`; <asset> and <extra> are always
-/// known, but what <extra> says in the CMU462 profile must be `understood`.
+/// known, but what <extra> says in the CMU462 profile must be `understood`. A <technique> of that
+/// profile anywhere else would be overlooked: it fails.
 void check_children(const Element& parent, std::initializer_list<std::string_view> known,
                     Cmu462 profile = Cmu462::refused);
 /// The <technique profile="CMU462"> in an <extra> of `owner`, or null if there is none or it is empty.

@@ -6,8 +6,18 @@
 #include <algorithm>
 
 namespace scenes::collada {
+namespace {
 
-std::string in_quotes(std::string_view text)
+std::string_view trimmed(std::string_view text)
+{
+    constexpr std::string_view white_space = " \t\n\r";
+    text.remove_prefix(std::min(text.find_first_not_of(white_space), text.size()));
+    return text.substr(0, text.find_last_not_of(white_space) + 1);
+}
+
+} // namespace
+
+std::string legible(std::string_view text)
 {
     constexpr std::size_t longest = 60;
     std::string result(text.substr(0, longest));
@@ -22,16 +32,25 @@ std::string in_quotes(std::string_view text)
         }
         result += "...";
     }
-    return "\"" + result + "\"";
+    return result;
+}
+
+std::string in_quotes(std::string_view text)
+{
+    return "\"" + legible(text) + "\"";
+}
+
+std::string in_brackets(const Element& element)
+{
+    return "<" + legible(element.Name()) + ">";
 }
 
 std::string describe(const Element& element)
 {
-    const std::string name = element.Name();
     for (const char* attribute : {"id", "url", "target", "material", "semantic", "source", "name"})
         if (const char* value = element.Attribute(attribute))
-            return "<" + name + " " + attribute + "=" + in_quotes(value) + ">";
-    return "<" + name + ">";
+            return "<" + legible(element.Name()) + " " + attribute + "=" + in_quotes(value) + ">";
+    return in_brackets(element);
 }
 
 std::string place(const Element& element)
@@ -91,10 +110,12 @@ void check_children(const Element& parent, std::initializer_list<std::string_vie
 {
     for (const auto* node = parent.FirstChild(); node != nullptr; node = node->NextSibling()) {
         if (node->ToText() != nullptr)
-            fail(parent, "text " + in_quotes(node->Value()) + " is not known here");
+            fail(parent, "text " + in_quotes(trimmed(node->Value())) + " is not known here");
         const Element* child = node->ToElement();
         if (child == nullptr) continue;
         const std::string_view name = child->Name();
+        if (name == "technique" && child->Attribute("profile", "CMU462"))
+            fail(*child, "the CMU462 profile belongs in an <extra>");
         if (name != "extra" && name != "asset" &&
             std::find(known.begin(), known.end(), name) == known.end())
             fail(*child, "not known inside " + describe(parent));

@@ -132,24 +132,26 @@ void Instances::add_camera(const Element& instance, const Matrix& to_world)
 {
     check_children(instance, {});
     const Element& camera = document_->target(instance, "url", "camera");
-    if (scene_->camera)
-        scene_->notices.push_back(place(instance) + "ignored: the first camera counts");
-    else
+    if (!scene_->camera) {
         scene_->camera = read_camera(camera, instance, to_world, scene_->notices);
+    } else if (!other_cameras_noticed_) {
+        scene_->notices.push_back(place(instance) + "ignored, like every camera but the first");
+        other_cameras_noticed_ = true;
+    }
 }
 
 void Instances::finish()
 {
-    const bool geometry_emits = has_emissive_geometry(*scene_);
-    for (const AreaLightInstance& area : area_lights_) {
-        if (geometry_emits) {
-            scene_->notices.push_back(place(*area.instance) +
-                                      "skipped: the scene has emissive geometry, of which an "
-                                      "area light is a second description");
-            continue;
-        }
-        const std::uint32_t material = materials_.index_of(*area.light, area.radiance);
-        add_triangles(area_light_square, material, *area.instance, area.to_world);
+    if (has_emissive_geometry(*scene_)) {
+        if (!area_lights_.empty())
+            scene_->notices.push_back(
+                place(*area_lights_.front().instance) +
+                "skipped, like every area light: the scene has emissive geometry, of which "
+                "they are a second description");
+    } else {
+        for (const AreaLightInstance& area : area_lights_)
+            add_triangles(area_light_square, materials_.index_of(*area.light, area.radiance),
+                          *area.instance, area.to_world);
     }
     if (!has_emitter(*scene_))
         scene_->notices.push_back(place(document_->root()) + "no emitter: the picture will be black");

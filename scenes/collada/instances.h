@@ -55,6 +55,7 @@ private:
     Materials materials_;
     Geometries geometries_;
     std::vector<AreaLightInstance> area_lights_;
+    bool other_cameras_noticed_ = false;
 };
 
 } // namespace scenes::collada

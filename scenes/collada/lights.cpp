@@ -60,7 +60,7 @@ Light read_light(const Element& light)
     }
     const bool is_area = name == "area" && cmu462 != nullptr;
     if (!is_area && name != "directional" && name != "ambient")
-        fail(light, "unknown kind <" + std::string(name) + ">");
+        fail(light, "unknown kind " + in_brackets(*kind));
     check_children(*kind, {"color"});
     if (name == "directional") return DirectionalLight{forward, color_of(*kind)};
     if (name == "ambient") return AmbientLight{color_of(*kind)};

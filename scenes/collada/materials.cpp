@@ -2,9 +2,6 @@
 
 #include "scenes/collada/numbers.h"
 
-#include <glm/vector_relational.hpp>
-
-#include <optional>
 #include <string_view>
 
 namespace scenes::collada {
@@ -86,10 +83,7 @@ Material read_common(const Element& effect)
     const Element* diffuse = channel_color(*shader, "diffuse");
     const Rgb albedo = diffuse ? reflection_color(*diffuse, Alpha::ignored) : Rgb(0.0);
     if (const Element* emission = channel_color(*shader, "emission")) {
-        std::vector<double> rgba = numbers(*emission);
-        if (rgba.size() != 3 && rgba.size() != 4) numbers(*emission, 3);
-        const Rgb radiance(rgba[0], rgba[1], rgba[2]);
-        if (glm::any(glm::lessThan(radiance, Rgb(0.0)))) fail(*emission, "negative light");
+        const Rgb radiance = emission_color(*emission, Alpha::ignored);
         if (radiance != Rgb(0.0)) {
             if (albedo != Rgb(0.0))
                 fail(*emission, "a surface that emits and reflects is not supported");

@@ -44,6 +44,13 @@ std::uint32_t to_index(std::string_view word, const Element& element)
     fail(element, in_quotes(word) + " is not a whole number");
 }
 
+void check_count(const Element& element, const std::vector<double>& values, std::size_t count)
+{
+    if (values.size() != count)
+        fail(element,
+             std::to_string(values.size()) + " numbers where there should be " + std::to_string(count));
+}
+
 } // namespace
 
 std::vector<double> numbers(const Element& element)
@@ -59,9 +66,7 @@ std::vector<double> numbers(const Element& element)
 std::vector<double> numbers(const Element& element, std::size_t count)
 {
     std::vector<double> values = numbers(element);
-    if (values.size() != count)
-        fail(element,
-             std::to_string(values.size()) + " numbers where there should be " + std::to_string(count));
+    check_count(element, values, count);
     return values;
 }
 
@@ -98,23 +103,22 @@ std::uint32_t count_attribute(const Element& element, const char* name,
     return to_index(word, element);
 }
 
-Rgb emission_color(const Element& element)
+Rgb emission_color(const Element& element, Alpha alpha)
 {
-    const Rgb color = vector(element);
-    for (int i = 0; i < 3; ++i)
-        if (color[i] < 0) fail(element, "negative light");
-    return color;
+    std::vector<double> values = numbers(element);
+    if (alpha == Alpha::ignored && values.size() == 4) values.pop_back();
+    check_count(element, values, 3);
+    for (const double value : values)
+        if (value < 0) fail(element, "a negative colour");
+    return {values[0], values[1], values[2]};
 }
 
 Rgb reflection_color(const Element& element, Alpha alpha)
 {
-    std::vector<double> values = numbers(element);
-    if (alpha == Alpha::ignored && values.size() == 4) values.pop_back();
-    if (values.size() != 3)
-        fail(element, std::to_string(values.size()) + " numbers where there should be 3");
-    for (const double value : values)
-        if (value < 0 || value > 1) fail(element, "not in [0, 1]: no surface reflects that much");
-    return {values[0], values[1], values[2]};
+    const Rgb color = emission_color(element, alpha);
+    for (int i = 0; i < 3; ++i)
+        if (color[i] > 1) fail(element, "greater than 1: no surface reflects more than it receives");
+    return color;
 }
 
 } // namespace scenes::collada

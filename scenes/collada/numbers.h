@@ -28,10 +28,11 @@ std::vector<std::uint32_t> indices(const Element& element);
 std::uint32_t count_attribute(const Element& element, const char* name,
                               std::optional<std::uint32_t> fallback = std::nullopt);
 
-/// A colour of three numbers, none negative: radiance, intensity, irradiance.
-Rgb emission_color(const Element& element);
-/// A colour of three numbers (and an alpha, ignored, where `with_alpha`), none outside [0, 1].
 enum class Alpha { none, ignored };
+/// A colour of three numbers, none negative: radiance, intensity, irradiance. Where alpha is `ignored`,
+/// there may be a fourth number.
+Rgb emission_color(const Element& element, Alpha alpha = Alpha::none);
+/// The same, and none greater than 1.
 Rgb reflection_color(const Element& element, Alpha alpha = Alpha::none);
 
 } // namespace scenes::collada
