@@ -6,6 +6,7 @@
 #include "cli/progress.h"
 #include "golden/exr.h"
 #include "golden/write_image.h"
+#include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 #include "scenes/frame.h"
 #include "scenes/read_scene.h"
@@ -18,6 +19,7 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -36,6 +38,7 @@ struct Options {
     std::uint32_t batch_size = 4;
     unsigned threads = std::max(1u, std::thread::hardware_concurrency());
     std::string integrator = "path";
+    std::string heuristic = "balance";
     int max_edges = ref::unlimited_edges;
     bool no_roulette = false;
     std::uint64_t seed = 0;
@@ -49,6 +52,11 @@ struct Options {
 struct Size {
     int width, height;
 };
+
+const std::map<std::string, ref::Integrator> integrators = {
+    {"path", ref::trace_path}, {"bdpt", ref::trace_bidirectionally}, {"light", ref::trace_light}};
+const std::map<std::string, ref::Heuristic> heuristics = {{"balance", ref::Heuristic::balance},
+                                                          {"power", ref::Heuristic::power}};
 
 /// Reads "WxH". Throws std::invalid_argument.
 Size parse_size(const std::string& text)
@@ -75,6 +83,7 @@ golden::Metadata describe(const Options& options, const scenes::Scene& scene)
     return {{"scene", scene.name},
             {"scene_hash", scene.hash},
             {"integrator", options.integrator},
+            {"heuristic", options.heuristic},
             {"batch_size", std::to_string(options.batch_size)},
             {"max_edges", options.max_edges == ref::unlimited_edges ? "unlimited"
                                                                     : std::to_string(options.max_edges)},
@@ -170,10 +179,11 @@ ExitStatus render(const Options& options)
     const std::uint64_t batches_before = film.batches();
 
     const ref::World world(scene, size.width, size.height);
-    const ref::RenderOptions render_options{{options.seed, options.max_edges, !options.no_roulette},
-                                            batches,
-                                            options.batch_size,
-                                            options.threads};
+    const ref::RenderOptions render_options{
+        {options.seed, options.max_edges, !options.no_roulette, heuristics.at(options.heuristic)},
+        batches,
+        options.batch_size,
+        options.threads};
     catch_interrupts();
     const auto start = std::chrono::steady_clock::now();
     const double cpu_start = cpu_seconds(resources());
@@ -181,7 +191,7 @@ ExitStatus render(const Options& options)
     {
         Progress progress(scene.name, static_cast<double>(batches_before), static_cast<double>(batches),
                           options.quiet);
-        complete = ref::render(world, ref::trace_path, render_options, film,
+        complete = ref::render(world, integrators.at(options.integrator), render_options, film,
                                {[&](double done) { progress.update(done); }, interrupt_requested});
     }
     const double seconds =
@@ -246,8 +256,8 @@ void add_render_command(CLI::App& program, Work& work)
     command->add_option("-t,--threads", options->threads, "Threads; the picture does not depend on them")
         ->check(CLI::Range(1u, 1024u))
         ->capture_default_str();
-    command->add_option("--integrator", options->integrator, "How: path")
-        ->check(CLI::IsMember({"path"}))
+    command->add_option("--integrator", options->integrator, "path, bdpt (bidirectional) or light")
+        ->check(CLI::IsMember(integrators))
         ->capture_default_str();
     command
         ->add_option("--max-edges", options->max_edges,

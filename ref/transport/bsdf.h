@@ -109,6 +109,30 @@ inline BsdfSample sample_bsdf(const scenes::Material& material, const Vec3& wo_l
     return std::visit([&](const auto& m) { return sample_bsdf(m, wo_local, u, carried); }, material);
 }
 
+/// What a delta lobe counts in the density of a path: wo and wi must be such that one is the other's
+/// reflection or refraction. The lobe's probability, times eta^2 |cos| on the side of wi.
+///
+/// A delta lobe has no density per solid angle, but strategies that pass the vertex in opposite
+/// directions can still be compared: walking one way turns a cone d omega_o into the cone d omega_i, and
+/// eta^2 cos d omega is the same for both [Veach 1997, sec. 5.2; etendue]. Counting lobes per unit of
+/// eta^2 cos d omega therefore makes densities of the two directions refer to the same set of paths.
+/// Reflection has the same factor on both sides; refraction has not.
+inline double density_of_delta_lobe(const scenes::Material& material, const Vec3& wo_local,
+                                    const Vec3& wi_local)
+{
+    const auto* glass = std::get_if<scenes::Glass>(&material);
+    if (glass == nullptr)
+        return std::holds_alternative<scenes::Mirror>(material) ? std::abs(wi_local.z) : 0.0;
+    const bool outside = wo_local.z > 0.0;
+    const double eta_i = outside ? 1.0 : glass->ior;
+    const double eta_t = outside ? glass->ior : 1.0;
+    double cos_t = 0.0;
+    const double reflected = fresnel(std::abs(wo_local.z), eta_i, eta_t, cos_t);
+    const bool is_reflection = wo_local.z * wi_local.z > 0.0;
+    return is_reflection ? reflected * eta_i * eta_i * std::abs(wi_local.z)
+                         : (1.0 - reflected) * eta_t * eta_t * std::abs(wi_local.z);
+}
+
 /// Bounces up to this one are never ended by roulette.
 inline constexpr int bounces_without_roulette = 4;
 

@@ -1,6 +1,13 @@
 #pragma once
 
-// The pinhole camera: from a point of the film to a ray.
+// The pinhole camera: from a point of the film to a ray and back, and what the film measures.
+//
+// A pixel's value is the mean radiance over the pixel. As a measurement of the light that reaches the
+// pinhole [Veach 1997, eq. 8.7] its importance is W_e = 1 / (A cos^4) for a film of area A at distance
+// 1, times the number of pixels, on the pixel itself: one power of the cosine for the tilted pinhole,
+// three for the solid angle that a piece of the film spans. With as many light walks as eye walks over
+// the whole film that number cancels, and what a light walk adds to a pixel is divided by the samples
+// per pixel alone.
 
 #include "ref/trees/ray.h"
 #include "scenes/scene.h"
@@ -9,6 +16,7 @@
 #include <glm/vec2.hpp>
 
 #include <cmath>
+#include <optional>
 
 namespace ref {
 
@@ -25,6 +33,7 @@ public:
     }
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
+    [[nodiscard]] const Vec3& eye() const { return camera_.eye; }
 
     /// The ray through the film point (x, y), in pixels from the top left corner of the picture.
     /// Its direction has unit length.
@@ -35,7 +44,35 @@ public:
         return {camera_.eye, glm::normalize(x * camera_.right + y * camera_.up - camera_.backward)};
     }
 
+    /// The film point that is seen in direction `w` from the eye, or none outside the picture.
+    [[nodiscard]] std::optional<glm::dvec2> project(const Vec3& w) const
+    {
+        const double ahead = -glm::dot(w, camera_.backward);
+        if (ahead <= 0.0) return std::nullopt;
+        const glm::dvec2 film(width_ / 2.0 + glm::dot(w, camera_.right) / ahead / pixel_size_,
+                              height_ / 2.0 - glm::dot(w, camera_.up) / ahead / pixel_size_);
+        const bool seen = film.x >= 0.0 && film.x < width_ && film.y >= 0.0 && film.y < height_;
+        return seen ? std::optional(film) : std::nullopt;
+    }
+
+    /// Cosine between the unit direction `w` from the eye and the viewing direction.
+    [[nodiscard]] double cosine(const Vec3& w) const { return -glm::dot(w, camera_.backward); }
+
+    /// W_e (sr^-1) towards a unit direction within the picture, see above.
+    [[nodiscard]] double importance(const Vec3& w) const
+    {
+        return 1.0 / (film_area() * std::pow(cosine(w), 4));
+    }
+
+    /// The density with which eye walks over the whole film start towards such a direction.
+    [[nodiscard]] double pdf_solid_angle(const Vec3& w) const
+    {
+        return 1.0 / (film_area() * std::pow(cosine(w), 3));
+    }
+
 private:
+    [[nodiscard]] double film_area() const { return width_ * pixel_size_ * height_ * pixel_size_; }
+
     scenes::Camera camera_;
     int width_;
     int height_;

@@ -135,7 +135,7 @@ std::optional<IncidentLight> sample_incident(const Emitters& emitters, const Vec
         SurfacePoint end{};
         end.position = position;
         return IncidentLight{
-            glm::normalize(position - from), Rgb(0.0), emitter->probability, true, end, false};
+            emitter, glm::normalize(position - from), Rgb(0.0), emitter->probability, true, end, false};
     };
     const auto distance2 = [&](const Vec3& position) {
         return glm::dot(position - from, position - from);
@@ -147,7 +147,8 @@ std::optional<IncidentLight> sample_incident(const Emitters& emitters, const Vec
     case EmitterKind::sphere: {
         const SurfacePoint end = sample_surface(emitters.geometry(), *emitter, u[1], u[2]);
         const Vec3 wi = glm::normalize(end.position - from);
-        light = {wi,
+        light = {emitter,
+                 wi,
                  emitted_radiance(scene, end, -wi),
                  pdf_solid_angle_incident(emitters, from, end),
                  false,
@@ -169,11 +170,12 @@ std::optional<IncidentLight> sample_incident(const Emitters& emitters, const Vec
     }
     case EmitterKind::directional: {
         const auto& sun = scene.directional_lights[emitter->index];
-        light = {-sun.direction, sun.irradiance, emitter->probability, true, {}, true};
+        light = {emitter, -sun.direction, sun.irradiance, emitter->probability, true, {}, true};
         break;
     }
     case EmitterKind::environment:
-        light = {sample_sphere(u[1], u[2]),
+        light = {emitter,
+                 sample_sphere(u[1], u[2]),
                  *scene.environment,
                  emitter->probability * pdf_solid_angle_sphere,
                  false,

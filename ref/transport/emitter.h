@@ -25,6 +25,7 @@ struct Emitter {
 
 /// Light that may reach a point: the outcome of sampling an emitter for next-event estimation.
 struct IncidentLight {
+    const Emitter* emitter;
     Vec3 wi;          // unit direction from the point towards the light
     Rgb radiance;     // W m^-2 sr^-1; for a delta emitter its irradiance on a surface facing it (W m^-2)
     double pdf;       // per solid angle, choice of emitter included; of the choice alone if `delta`

@@ -47,9 +47,7 @@ void add_next_event(const World& world, const PathOptions& options, const Sample
 void trace_path(const World& world, const PathOptions& options, const SampleId& id,
                 std::vector<Contribution>& out)
 {
-    const auto width = static_cast<std::uint32_t>(world.camera.width());
-    const Uniforms on_pixel = uniforms(id, Event::camera);
-    const Ray first = world.camera.ray({id.pixel % width + on_pixel[0], id.pixel / width + on_pixel[1]});
+    const Ray first = camera_ray(world, id);
     // No other strategy of this integrator finds what the camera sees directly: as if it were certain.
     Walk walk{first, first.origin, Rgb(1.0), 0.0, true};
 

@@ -30,13 +30,28 @@ struct World {
     World& operator=(const World&) = delete;
 };
 
+/// The eye walk's first ray: through a uniform point of the sample's pixel.
+inline Ray camera_ray(const World& world, const SampleId& id)
+{
+    const auto width = static_cast<std::uint32_t>(world.camera.width());
+    const Uniforms u = uniforms(id, Event::camera);
+    return world.camera.ray({id.pixel % width + u[0], id.pixel / width + u[1]});
+}
+
 inline constexpr int unlimited_edges = std::numeric_limits<int>::max();
+
+/// How strategies that can make the same path share it [Veach 1997, sec. 9.2].
+enum class Heuristic {
+    balance, // in proportion to their densities
+    power    // in proportion to the squares of their densities
+};
 
 /// How paths are made, the same for every integrator.
 struct PathOptions {
     std::uint64_t seed = 0;
     int max_edges = unlimited_edges; // of a path, the camera's included; at least 1
     bool roulette = true;            // unbiased either way; with none, max_edges must bound the paths
+    Heuristic heuristic = Heuristic::balance; // of bidirectional path tracing
 };
 
 /// What one path adds to one pixel. The path has s vertices from the light and t from the eye

@@ -1,0 +1,109 @@
+#include "ref/transport/connect.h"
+
+#include "ref/transport/emission.h"
+#include "ref/transport/mis_weight.h"
+#include "ref/transport/visibility.h"
+
+namespace ref {
+
+namespace {
+
+/// x_0 ... x_k: the light walk, then the eye walk backwards.
+Path join(std::span<const Vertex> y, std::span<const Vertex> z)
+{
+    Path x;
+    for (const Vertex& vertex : y) x.push_back(&vertex);
+    for (auto vertex = z.rbegin(); vertex != z.rend(); ++vertex) x.push_back(&*vertex);
+    return x;
+}
+
+/// The contribution of a path whose ends are joined, or nothing if it carries no light.
+std::optional<Contribution> contribution(const World& world, const PathOptions& options,
+                                         std::uint32_t pixel, std::span<const Vertex> y,
+                                         std::span<const Vertex> z, const Rgb& value)
+{
+    if (value == Rgb(0.0)) return std::nullopt;
+    return Contribution{pixel, static_cast<int>(y.size()), static_cast<int>(z.size()), value,
+                        mis_weight(world, options, join(y, z), y.size())};
+}
+
+/// Whether nothing stands between two vertices, at most one of which is at infinity.
+bool visible(const World& world, const Vertex& a, const Vertex& b)
+{
+    using Kind = Vertex::Kind;
+    if (a.kind != Kind::surface && b.kind == Kind::surface) return visible(world, b, a);
+    if (a.kind == Kind::surface && b.kind == Kind::surface)
+        return visible(world.geometry, a.point, b.point);
+    const Vec3 w = direction(a, b);
+    if (b.kind == Kind::infinity)
+        return !occluded(world.geometry,
+                         {a.kind == Kind::surface ? leave_surface(a.point, w) : a.point.position, w});
+    if (a.kind == Kind::infinity) return visible(world, b, a);
+    return visible(world.geometry, a.point, b.point.position);
+}
+
+} // namespace
+
+std::optional<Contribution> emission_hit(const World& world, const PathOptions& options,
+                                         const SampleId& id, std::span<const Vertex> z)
+{
+    const Vertex& last = z.back();
+    if (last.emitter == nullptr) return std::nullopt;
+    return contribution(world, options, id.pixel, {}, z,
+                        last.alpha * emitted(world, last, z[z.size() - 2]));
+}
+
+std::optional<Contribution> next_event(const World& world, const PathOptions& options,
+                                       const SampleId& id, std::span<const Vertex> z)
+{
+    const Vertex& last = z.back();
+    if (!scatters(world, last)) return std::nullopt;
+    const auto light =
+        sample_incident(world.emitters, last.point.position,
+                        uniforms(id, Event::next_event, static_cast<std::uint32_t>(z.size() - 1)));
+    if (!light) return std::nullopt;
+    const Rgb no_walk(1.0);
+    const Vertex y0 = light->infinite ? infinity_vertex(*light->emitter, light->wi, no_walk)
+                      : light->delta  ? source_vertex(*light->emitter, light->end.position, no_walk)
+                                      : surface_vertex(world, light->end, no_walk);
+    const Rgb f = evaluate_bsdf(world, y0, last, z[z.size() - 2]);
+    if (f == Rgb(0.0) || !visible(world.geometry, last.point, *light)) return std::nullopt;
+    return contribution(world, options, id.pixel, {&y0, 1}, z,
+                        last.alpha * f * cosine(last, light->wi) * light->radiance / light->pdf);
+}
+
+std::optional<Contribution> light_image(const World& world, const PathOptions& options,
+                                        std::span<const Vertex> y, const Vertex& eye)
+{
+    const Vertex& last = y.back();
+    const bool first = y.size() == 1;
+    if (first ? !can_be_hit(*last.emitter) : !scatters(world, last)) return std::nullopt;
+    const Vec3 w = direction(eye, last);
+    const auto film = world.camera.project(w);
+    if (!film) return std::nullopt;
+    const Rgb scattered =
+        first ? emitted(world, last, eye) : evaluate_bsdf(world, y[y.size() - 2], last, eye);
+    if (scattered == Rgb(0.0) || !visible(world, last, eye)) return std::nullopt;
+    const auto pixel =
+        static_cast<std::uint32_t>(film->y) * static_cast<std::uint32_t>(world.camera.width()) +
+        static_cast<std::uint32_t>(film->x);
+    return contribution(world, options, pixel, y, {&eye, 1},
+                        last.alpha * scattered * geometric_term(last, eye) * world.camera.cosine(w) *
+                            world.camera.importance(w));
+}
+
+std::optional<Contribution> inner_connection(const World& world, const PathOptions& options,
+                                             const SampleId& id, std::span<const Vertex> y,
+                                             std::span<const Vertex> z)
+{
+    const Vertex& y_last = y.back();
+    const Vertex& z_last = z.back();
+    if (!scatters(world, y_last) || !scatters(world, z_last)) return std::nullopt;
+    const Rgb f = evaluate_bsdf(world, y[y.size() - 2], y_last, z_last) *
+                  evaluate_bsdf(world, y_last, z_last, z[z.size() - 2]);
+    if (f == Rgb(0.0) || !visible(world, y_last, z_last)) return std::nullopt;
+    return contribution(world, options, id.pixel, y, z,
+                        y_last.alpha * f * geometric_term(y_last, z_last) * z_last.alpha);
+}
+
+} // namespace ref
