@@ -28,7 +28,7 @@ fs::path destination(const fs::path& path)
     if (!path.has_filename()) throw ImageError(path, "names no file");
     std::error_code error;
     const bool link = fs::is_symlink(path, error);
-    const fs::path target = link ? fs::weakly_canonical(path, error) : path;
+    fs::path target = link ? fs::weakly_canonical(path, error) : path;
     if (link && error) throw ImageError(path, error.message());
     const fs::file_status status = fs::status(target, error);
     if (fs::is_directory(status)) throw ImageError(path, "is a folder, not a file");

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# includes.sh ROOT: our folders include one another in one direction only. The two wings, ref/ and cuda/,
+# are independent implementations: neither may see the other.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/files.sh"
+cd "$1"
+tracked '*.h' '*.cpp' '*.cu' '*.cuh' | xargs -0 -r awk '
+    BEGIN {
+        may["scenes"] = " scenes "
+        may["golden"] = " golden "
+        may["ref"] = " ref scenes golden "
+        may["cuda"] = " cuda scenes golden "
+        may["cli"] = " cli ref cuda scenes golden "
+        may["tests"] = " tests cli ref cuda scenes golden "
+    }
+    /^[ \t]*#[ \t]*include[ \t]*"/ {
+        split(FILENAME, from, "/")
+        split($0, quoted, "\"")
+        split(quoted[2], to, "/")
+        if (!(from[1] in may)) problem = "is in no known folder"
+        else if (index(quoted[2], "..")) problem = "includes by a relative path"
+        else if (!(to[1] in may)) problem = "includes by a path that does not begin at the root"
+        else if (!index(may[from[1]], " " to[1] " ")) problem = from[1] "/ must not include " to[1] "/"
+        else next
+        print FILENAME ":" FNR ": " problem ": " $0
+        failed = 1
+    }
+    END { exit failed }'

@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# self_test.sh: the checks beside this file fail on what they are there to find, and pass what is sound.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+mkdir -p "$root"/{ref/trees,cuda/trees,scenes,golden,cli,tests}
+failures=0
+
+# expect pass|fail CHECK FILE CONTENT: CHECK on a tree that holds only this file
+expect() {
+    printf '%s\n' "$4" >"$root/$3"
+    local verdict=pass
+    bash "$here/$2" "$root" c++ >/dev/null 2>&1 || verdict=fail
+    if [ "$verdict" != "$1" ]; then
+        echo "$2 should $1 on $3 with: $4"
+        failures=$((failures + 1))
+    fi
+    rm "$root/$3"
+}
+
+expect pass includes.sh ref/trees/a.h '#include "scenes/scene.h"'
+expect pass includes.sh cuda/trees/a.cuh '#include "cuda/device.h"'
+expect pass includes.sh tests/a.cpp '#include "ref/trees/ray.h"'
+expect fail includes.sh ref/trees/a.h '#include "cuda/device.h"'
+expect fail includes.sh cuda/trees/a.cu '# include "ref/trees/ray.h"'
+expect fail includes.sh scenes/a.h '#include "golden/image.h"'
+expect fail includes.sh golden/a.h '#include "scenes/scene.h"'
+expect fail includes.sh ref/trees/a.cpp '#include "cli/command.h"'
+expect fail includes.sh ref/trees/a.cpp '#include "../../cuda/device.h"'
+expect fail includes.sh ref/trees/a.cpp '#include "ray.h"'
+expect fail includes.sh cli/a.cpp '#include "tests/a.h"'
+somebody=/home
+expect fail paths.sh cli/a.cpp "// see $somebody/me/notes"
+expect fail paths.sh tests/a.txt "\"$somebody/me\""
+expect pass paths.sh tests/a.txt "https://example.org$somebody/page"
+expect pass headers.sh golden/a.h 'inline int f() { return 1; }'
+expect fail headers.sh golden/a.h 'std::string f();'
+printf '#include <string>\n#include "golden/a.h"\n' >"$root/golden/a.cpp"
+expect fail headers.sh golden/a.h 'std::string f();'
+rm "$root/golden/a.cpp"
+if command -v clang-format >/dev/null; then
+    expect pass format.sh golden/a.h 'int f();'
+    expect fail format.sh golden/a.h 'int   f( ) ;'
+fi
+exit $((failures > 0))
