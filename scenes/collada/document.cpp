@@ -44,15 +44,8 @@ class Inspector : public tinyxml2::XMLVisitor {
 public:
     explicit Inspector(IdIndex& elements_by_id) : elements_by_id_(&elements_by_id) {}
 
-    bool VisitEnter(const Element& element, const tinyxml2::XMLAttribute* first) override
+    bool VisitEnter(const Element& element, const tinyxml2::XMLAttribute* /*first*/) override
     {
-        std::vector<std::string_view> names;
-        for (const tinyxml2::XMLAttribute* a = first; a != nullptr; a = a->Next())
-            names.emplace_back(a->Name());
-        std::sort(names.begin(), names.end());
-        const auto twice = std::adjacent_find(names.begin(), names.end());
-        if (twice != names.end()) fail(element, "attribute " + in_quotes(*twice) + " is given twice");
-
         if (const char* id = element.Attribute("id")) {
             const auto [known, is_new] = elements_by_id_->emplace(id, &element);
             if (!is_new)
@@ -121,7 +114,7 @@ Document::Document(std::string_view xml, const std::string& file_name)
     xml_->SetUserData(file_name_.get());
     xml_->Parse(xml.data(), xml.size());
     if (xml_->ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED)
-        fail_at_line(*file_name_, xml_->ErrorLineNum(), "elements nested deeper than 100");
+        fail_at_line(*file_name_, xml_->ErrorLineNum(), "elements nested deeper than 98");
     if (xml_->Error())
         fail_at_line(*file_name_, std::max(1, xml_->ErrorLineNum()),
                      "not well-formed XML: " + words_of(xml_->ErrorName()));

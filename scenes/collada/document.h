@@ -17,7 +17,7 @@ using Element = tinyxml2::XMLElement;
 
 /// The document and an index of its ids. Throws SceneError for anything but well-formed UTF-8 without
 /// a document type declaration (entities could make a small file large), for elements nested deeper than
-/// 100, and for an id or an attribute given twice.
+/// 98 (tinyxml2 counts the document and stops at 100), and for an id or an attribute given twice.
 class Document {
 public:
     Document(std::string_view xml, const std::string& file_name);

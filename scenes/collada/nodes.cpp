@@ -8,7 +8,7 @@ namespace scenes::collada {
 namespace {
 
 constexpr std::size_t deepest = 200;
-constexpr std::size_t most_visits = std::size_t{1} << 22U;
+constexpr std::size_t most_visits = std::size_t{1} << 20U;
 
 } // namespace
 

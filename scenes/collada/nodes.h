@@ -12,7 +12,7 @@
 namespace scenes::collada {
 
 /// Walks a <visual_scene> and hands each instance in it to an Instances. Fails for nodes that instance
-/// themselves, for nodes nested deeper than 200, and for more than 2^22 elements in nodes, each counted
+/// themselves, for nodes nested deeper than 200, and for more than 2^20 elements in nodes, each counted
 /// as often as it is instanced: <instance_node> could multiply a small file to any size.
 class NodeWalk {
 public:

@@ -1,0 +1,254 @@
+#include "tests/scenes/scene_text.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace {
+
+using scenes::Vec3;
+
+/// A mesh with everything in it that the format lets vary.
+struct RandomMesh {
+    std::vector<Vec3> positions;
+    std::vector<std::vector<std::uint32_t>> polygons;
+};
+
+rc::Gen<double> coordinate()
+{
+    return rc::gen::map(
+        rc::gen::pair(rc::gen::inRange<std::int64_t>(-(1LL << 52), 1LL << 52),
+                      rc::gen::inRange(-60, 10)),
+        [](const auto& p) { return std::ldexp(static_cast<double>(p.first), p.second); });
+}
+
+RandomMesh random_mesh(bool only_triangles)
+{
+    RandomMesh mesh;
+    const int points = *rc::gen::inRange(1, 12);
+    for (int i = 0; i < points; ++i)
+        mesh.positions.emplace_back(*coordinate(), *coordinate(), *coordinate());
+    const int polygons = *rc::gen::inRange(0, 6);
+    for (int i = 0; i < polygons; ++i) {
+        const auto corners = static_cast<std::size_t>(only_triangles ? 3 : *rc::gen::inRange(3, 7));
+        mesh.polygons.push_back(*rc::gen::container<std::vector<std::uint32_t>>(
+            corners, rc::gen::inRange<std::uint32_t>(0, static_cast<std::uint32_t>(points))));
+    }
+    return mesh;
+}
+
+/// The positions in an array with a random accessor offset, stride and order of X, Y and Z; what lies
+/// between is filled with numbers that would show.
+std::string source_text(const std::vector<Vec3>& positions)
+{
+    const auto stride = static_cast<std::size_t>(*rc::gen::inRange(3, 8));
+    const auto offset = static_cast<std::size_t>(*rc::gen::inRange(0, 5));
+    std::vector<int> places(stride, -1); // which axis lies where
+    std::array<std::size_t, 3> place_of{};
+    for (int axis = 0; axis < 3; ++axis) {
+        auto place = static_cast<std::size_t>(*rc::gen::inRange<int>(0, static_cast<int>(stride)));
+        while (places[place] != -1) place = (place + 1) % stride;
+        places[place] = axis;
+        place_of[static_cast<std::size_t>(axis)] = place;
+    }
+    const std::size_t last = *std::max_element(place_of.begin(), place_of.end());
+    // The array may end with the last coordinate, before the stride is full.
+    std::vector<double> values(offset + (positions.size() - 1) * stride + last + 1, 12345678.0);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            values[offset + i * stride + place_of[axis]] = positions[i][static_cast<int>(axis)];
+
+    std::string text =
+        "<source id=\"p\"><float_array id=\"a\" count=\"" + std::to_string(values.size()) + "\">";
+    for (const double value : values)
+        text += tests::exactly(value) + (*rc::gen::element(" ", "\n", "  "));
+    text += "</float_array><technique_common><accessor source=\"#a\" count=\"" +
+            std::to_string(positions.size()) + "\" offset=\"" + std::to_string(offset) + "\" stride=\"" +
+            std::to_string(stride) + "\">";
+    for (const int axis : places)
+        text += axis < 0 ? "<param type=\"float\"/>"
+                         : "<param name=\"" + std::string(1, "XYZ"[axis]) + "\" type=\"float\"/>";
+    return text + "</accessor></technique_common></source>";
+}
+
+/// <input> elements in random order, VERTEX at a random one of `stride` offsets; some share offsets.
+struct Inputs {
+    std::string text;
+    std::size_t stride;
+    std::size_t vertex;
+};
+
+Inputs random_inputs()
+{
+    const auto stride = static_cast<std::size_t>(*rc::gen::inRange(1, 5));
+    const auto vertex = static_cast<std::size_t>(*rc::gen::inRange<int>(0, static_cast<int>(stride)));
+    std::vector<std::string> inputs;
+    for (std::size_t i = 0; i < stride; ++i) {
+        const std::string offset = "\" offset=\"" + std::to_string(i) + "\"/>";
+        if (i == vertex)
+            inputs.push_back("<input semantic=\"VERTEX\" source=\"#v" + offset);
+        else
+            inputs.push_back("<input semantic=\"TEXCOORD\" source=\"#none" + offset);
+        if (*rc::gen::arbitrary<bool>())
+            inputs.push_back("<input semantic=\"NORMAL\" source=\"#none" + offset);
+    }
+    std::string text;
+    while (!inputs.empty()) {
+        const auto next =
+            static_cast<std::ptrdiff_t>(*rc::gen::inRange<int>(0, static_cast<int>(inputs.size())));
+        text += inputs[static_cast<std::size_t>(next)];
+        inputs.erase(inputs.begin() + next);
+    }
+    return {text, stride, vertex};
+}
+
+std::string corner_text(const std::vector<std::uint32_t>& polygon, const Inputs& inputs)
+{
+    std::string text;
+    for (const std::uint32_t corner : polygon)
+        for (std::size_t i = 0; i < inputs.stride; ++i)
+            text += (i == inputs.vertex ? std::to_string(corner) : "4000000000") + " ";
+    return text;
+}
+
+std::string primitives_text(const std::string& kind, const RandomMesh& mesh)
+{
+    const Inputs inputs = random_inputs();
+    std::string text = "<" + kind + " material=\"m\" count=\"" + std::to_string(mesh.polygons.size()) +
+                       "\">" + inputs.text;
+    std::string sizes;
+    std::string all;
+    for (const auto& polygon : mesh.polygons) {
+        sizes += std::to_string(polygon.size()) + " ";
+        if (kind == "polygons")
+            text += "<p>" + corner_text(polygon, inputs) + "</p>";
+        else
+            all += corner_text(polygon, inputs);
+    }
+    if (kind == "polylist") text += "<vcount>" + sizes + "</vcount>";
+    if (kind != "polygons") text += "<p>" + all + "</p>";
+    return text + "</" + kind + ">";
+}
+
+RC_GTEST_PROP(Geometries, WhateverTheLayoutTheTrianglesAreTheFansOfThePolygons, ())
+{
+    const std::string kind = *rc::gen::element<std::string>("triangles", "polylist", "polygons");
+    const RandomMesh mesh = random_mesh(kind == "triangles");
+    tests::SceneText text;
+    text.geometries = "<geometry id=\"g\"><mesh>" + source_text(mesh.positions) +
+                      "<vertices id=\"v\"><input semantic=\"NORMAL\" source=\"#none\"/>"
+                      "<input semantic=\"POSITION\" source=\"#p\"/></vertices>" +
+                      primitives_text(kind, mesh) + "</mesh></geometry>";
+    text.nodes = tests::node(tests::instance_geometry("g"));
+    const scenes::Scene scene = text.parse();
+
+    std::size_t next = 0;
+    for (const auto& polygon : mesh.polygons)
+        for (std::size_t i = 1; i + 1 < polygon.size(); ++i, ++next) {
+            RC_ASSERT(next < scene.triangles.size());
+            const auto& v = scene.triangles[next].vertices;
+            RC_ASSERT(v[0] == mesh.positions[polygon[0]]);
+            RC_ASSERT(v[1] == mesh.positions[polygon[i]]);
+            RC_ASSERT(v[2] == mesh.positions[polygon[i + 1]]);
+        }
+    RC_ASSERT(next == scene.triangles.size());
+}
+
+/// The notices about polygons of a mesh with one polygon per <p>.
+std::vector<std::string> notices_of(const std::string& positions, std::size_t points,
+                                    const std::vector<std::string>& polygons)
+{
+    tests::SceneText text;
+    std::string primitives = "<polygons material=\"m\" count=\"" + std::to_string(polygons.size()) +
+                             "\"><input semantic=\"VERTEX\" source=\"#g-v\" offset=\"0\"/>";
+    for (const std::string& p : polygons) primitives += "<p>" + p + "</p>";
+    text.geometries = tests::mesh("g", positions, points, primitives + "</polygons>");
+    text.lights = "<light id=\"l\"><technique_common><ambient><color>1 1 "
+                  "1</color></ambient></technique_common></light>";
+    text.nodes = tests::node(tests::instance_geometry("g") + tests::instance_geometry("g") +
+                             "<instance_light url=\"#l\"/>");
+    return text.parse().notices;
+}
+
+const std::string place_of_g = "test.dae:1: <geometry id=\"g\">: ";
+
+TEST(PolygonFaults, APlanarConvexPolygonHasNone)
+{
+    EXPECT_EQ(notices_of("0 0 0 1 0 0 1 1 0 0 1 0", 4, {"0 1 2 3", "3 2 1 0", "0 1 2"}),
+              std::vector<std::string>());
+}
+
+TEST(PolygonFaults, SevenDigitsAreEnoughToBePlanar)
+{
+    // A square of size 0.01 far out, tilted, each coordinate rounded to seven digits.
+    EXPECT_EQ(
+        notices_of("100.0000 200.0000 300.0000 100.0100 200.0000 300.0033 100.0100 200.0100 300.0067 "
+                   "100.0000 200.0100 300.0033",
+                   4, {"0 1 2 3"}),
+        std::vector<std::string>());
+}
+
+TEST(PolygonFaults, NonPlanarPolygonsAreCountedInOneNoticePerGeometry)
+{
+    EXPECT_EQ(
+        notices_of("0 0 0 1 0 0 1 1 0.01 0 1 0", 4, {"0 1 2 3", "1 2 3 0", "0 1 2"}),
+        std::vector<std::string>{
+            place_of_g + "2 polygon(s) are not planar: cut into triangles around the first corner"});
+}
+
+TEST(PolygonFaults, AConcavePolygonIsNoticedOnlyWhereItsFanLeavesIt)
+{
+    const std::string dart = "0 0 0 4 1 0 1 1 0 1 4 0"; // concave at corner 2
+    EXPECT_EQ(notices_of(dart, 4, {"2 3 0 1"}), std::vector<std::string>());
+    EXPECT_EQ(notices_of(dart, 4, {"0 1 2 3"}), std::vector<std::string>()); // corner 0 sees all of it
+    EXPECT_EQ(notices_of(dart, 4, {"1 2 3 0"}),
+              std::vector<std::string>{
+                  place_of_g + "1 polygon(s) are not convex: their triangles cover more than they do"});
+}
+
+TEST(PolygonFaults, ZeroAreaTrianglesAreKeptAndSmallerPolygonsDropped)
+{
+    EXPECT_EQ(
+        notices_of("0 0 0 1 0 0 2 0 0 0 1 0", 4, {"0 1 2", "0 0 3", "0 1 3"}),
+        std::vector<std::string>{
+            place_of_g + "2 triangle(s) of zero area: kept, but they neither stop a ray nor emit"});
+    EXPECT_EQ(
+        notices_of("0 0 0 1 0 0 2 0 0 0 1 0", 4, {"0 1", "0", "", "0 1 3"}),
+        std::vector<std::string>{place_of_g + "3 polygon(s) with fewer than three corners: dropped"});
+}
+
+TEST(Geometries, LinesAreIgnoredWithANotice)
+{
+    tests::SceneText text;
+    text.geometries = tests::mesh("g", "0 0 0 1 0 0", 2,
+                                  "<lines count=\"1\"><input semantic=\"VERTEX\" "
+                                  "source=\"#g-v\" offset=\"0\"/><p>0 1</p></lines>");
+    text.nodes = tests::node("<instance_geometry url=\"#g\"/>");
+    const scenes::Scene scene = text.parse();
+    EXPECT_TRUE(scene.triangles.empty());
+    ASSERT_EQ(scene.notices.size(), 2); // no emitter, either
+    EXPECT_EQ(scene.notices[0], "test.dae:1: <lines>: ignored: lines have no area");
+}
+
+TEST(Geometries, ASphereOfTheCmu462ProfileTakesThePlaceOfAMesh)
+{
+    tests::SceneText text;
+    std::string both = tests::triangle_mesh("g");
+    both.insert(both.rfind("</geometry>"),
+                "<extra><technique profile=\"CMU462\"><sphere><radius>.3</radius></sphere>"
+                "</technique></extra>");
+    text.geometries = both;
+    text.nodes = tests::node(tests::instance_geometry("g"));
+    const scenes::Scene scene = text.parse();
+    EXPECT_TRUE(scene.triangles.empty());
+    ASSERT_EQ(scene.spheres.size(), 1);
+    EXPECT_EQ(scene.spheres[0].radius, 0.3);
+}
+
+} // namespace
