@@ -1,5 +1,6 @@
 // The program: chooses the subcommand, and turns every error into one line and an exit status.
 
+#include "cli/bvh.h"
 #include "cli/command.h"
 
 #include <exception>
@@ -26,6 +27,7 @@ int main(int argc, char** argv)
     program.footer("Exit status: 0 fine, 1 a check says no, 2 bad input or usage, 130 interrupted.");
     cli::Work work;
     cli::add_render_command(program, work);
+    cli::add_bvh_command(program, work);
 
     try {
         program.parse(argc, argv);

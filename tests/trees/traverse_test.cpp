@@ -202,6 +202,17 @@ TEST(Slabs, AreMissedByRaysThatPassAtADistance)
     EXPECT_NEAR(entry(Vec3(0, 2, 2), Vec3(0.5, 0, -0.0)), 2, 1e-13); // padding: 32 u m / 0.5, m = 4
 }
 
+TEST(Slabs, AreNotMissedWhereZeroTimesInfinityIsNoNumber)
+{
+    // Along y, exactly in the padded faces x = 0 - 2^-48 and x = 0.5 + 2^-48: 32 u m = 2^-48 for m = 1.
+    const Aabb box{Vec3(0, 0, 0), Vec3(0.5, 1, 0.5)};
+    for (const double x : {-0x1p-48, 0.5 + 0x1p-48})
+        for (const double zero : {0.0, -0.0}) {
+            const double entry = ref::Slabs({Vec3(x, 0, 0.25), Vec3(zero, 1, zero)}, box).entry(box);
+            EXPECT_EQ(entry, 0);
+        }
+}
+
 /// A chain: leaf 0 beside (leaf 1 beside (leaf 2 ...)), as deep as there are leaves.
 Tree chain(std::span<const Aabb> boxes)
 {
