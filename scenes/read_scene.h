@@ -1,7 +1,8 @@
 #pragma once
 
-// Reads COLLADA 1.4.1 files with the CMU462 technique profile: docs say which part of COLLADA that is at
-// the head of read_scene.cpp. Everything else that would change the picture is an error.
+// Reads COLLADA 1.4.1 files with the CMU462 technique profile. The head of read_scene.cpp says where
+// each part of the format is read and what is made of it. What would change the picture and is not
+// understood is an error; what could not (an editor's data) is ignored.
 
 #include "scenes/scene.h"
 
