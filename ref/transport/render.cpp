@@ -32,14 +32,17 @@ std::vector<Tile> tiles_of(int width, int height)
 /// pixel's own samples one after the other, then what falls on it from elsewhere, tile by tile.
 class Batch {
 public:
-    Batch(const World& world, Integrator integrator, const RenderOptions& options, std::uint64_t number)
+    Batch(const World& world, Integrator integrator, const RenderOptions& options, std::uint64_t number,
+          StrategyLayers* layers)
         : world_(world), integrator_(integrator), options_(options), number_(number),
           tiles_(tiles_of(world.camera.width(), world.camera.height())), splats_(tiles_.size()),
           sum_(world.camera.width(), world.camera.height())
-    {}
+    {
+        if (layers != nullptr) layers_ = layers->empty_copy();
+    }
 
-    /// The batch's mean per pixel, or nothing if `monitor` stopped it.
-    std::optional<golden::Image> run(const Monitor& monitor)
+    /// Whether it was finished: `monitor` may stop it.
+    bool run(const Monitor& monitor)
     {
         {
             std::vector<std::jthread> helpers;
@@ -47,13 +50,16 @@ public:
             work(monitor);
         }
         if (error_) std::rethrow_exception(error_);
-        if (stopped_) return std::nullopt;
+        if (stopped_) return false;
         for (const auto& splats : splats_)
-            for (const Contribution& splat : splats)
-                sum_.pixels[splat.pixel] += splat.weight * splat.value;
+            for (const Contribution& splat : splats) add(splat);
         for (auto& pixel : sum_.pixels) pixel /= options_.batch_size;
-        return std::move(sum_);
+        return true;
     }
+
+    /// The mean per pixel.
+    [[nodiscard]] const golden::Image& mean() const { return sum_; }
+    [[nodiscard]] const std::optional<StrategyLayers>& layers() const { return layers_; }
 
 private:
     void work(const Monitor& monitor)
@@ -91,12 +97,19 @@ private:
                                 contributions);
                     for (const Contribution& c : contributions) {
                         if (c.pixel == pixel)
-                            sum_.pixels[pixel] += c.weight * c.value;
+                            add(c);
                         else
                             splats_[number].push_back(c);
                     }
                 }
             }
+    }
+
+    /// Two threads must not add to the same pixel at the same time.
+    void add(const Contribution& c)
+    {
+        sum_.pixels[c.pixel] += c.weight * c.value;
+        if (layers_) layers_->add(c);
     }
 
     const World& world_;
@@ -106,6 +119,7 @@ private:
     std::vector<Tile> tiles_;
     std::vector<std::vector<Contribution>> splats_; // per tile: what lands outside its own pixel
     golden::Image sum_;
+    std::optional<StrategyLayers> layers_;
 
     std::atomic<std::size_t> next_tile_ = 0;
     std::atomic<bool> stopped_ = false;
@@ -117,14 +131,20 @@ private:
 } // namespace
 
 bool render(const World& world, Integrator integrator, const RenderOptions& options, golden::Film& film,
-            const Monitor& monitor)
+            const Monitor& monitor, StrategyLayers* layers)
 {
-    if (film.mean().width != world.camera.width() || film.mean().height != world.camera.height())
+    const auto same_size = [&](int width, int height) {
+        return width == world.camera.width() && height == world.camera.height();
+    };
+    if (!same_size(film.mean().width, film.mean().height) ||
+        (layers != nullptr && !same_size(layers->width(), layers->height())))
         throw std::invalid_argument("film and camera differ in size");
     while (film.batches() < options.batches) {
-        auto batch = Batch(world, integrator, options, film.batches()).run(monitor);
-        if (!batch) return false;
-        film.add_batch(*batch);
+        Batch batch(world, integrator, options, film.batches(), layers);
+        if (!batch.run(monitor)) return false;
+        film.add_batch(batch.mean());
+        if (layers != nullptr) layers->add_batch(*batch.layers(), options.batch_size);
+        if (monitor.kept) monitor.kept(film);
     }
     return true;
 }

@@ -3,6 +3,7 @@
 // From samples to a picture: batches of samples, tiles of pixels, threads over tiles.
 
 #include "golden/image.h"
+#include "ref/transport/strategy_layers.h"
 #include "ref/transport/world.h"
 
 #include <cstdint>
@@ -17,18 +18,21 @@ struct RenderOptions {
     unsigned threads = 1;
 };
 
-/// How a caller watches a render and stops it. Either may be empty. Both are called from any of the
-/// render's threads, `progress` from one at a time.
+/// How a caller watches a render and stops it. Any of them may be empty. `progress` and `stop` are
+/// called from any of the render's threads, `progress` from one at a time.
 struct Monitor {
-    std::function<void(double done)> progress; // batches done, with the part of the present one
-    std::function<bool()> stop;                // asked between tiles: true ends the render soon
+    std::function<void(double done)> progress = {}; // batches done, with the part of the present one
+    std::function<bool()> stop = {};                // asked between tiles: true ends the render soon
+    std::function<void(const golden::Film&)> kept =
+        {}; // after each batch, with the film as it stands then
 };
 
 /// Adds batches to `film`, which may come from an earlier, shorter render, until it holds as many as
 /// asked for or `monitor` says stop; an unfinished batch is dropped. Returns whether it is complete.
 /// The film depends on scene, options and seed alone: not on the number of threads, nor on where the
-/// render was interrupted. Throws std::invalid_argument if film and camera differ in size.
+/// render was interrupted. `layers`, if there are any, receive the same batches strategy by strategy.
+/// Throws std::invalid_argument if film, layers and camera differ in size.
 bool render(const World& world, Integrator integrator, const RenderOptions& options, golden::Film& film,
-            const Monitor& monitor = {});
+            const Monitor& monitor = {}, StrategyLayers* layers = nullptr);
 
 } // namespace ref

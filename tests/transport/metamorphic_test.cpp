@@ -156,8 +156,10 @@ TEST_P(Metamorphic, TheOrderOfPrimitivesIsIrrelevant)
     tests::EstimateOptions other = quick;
     other.path.seed = 22;
     other.batches = 96;
+    other.batch_size = 10;
     tests::EstimateOptions first = quick;
     first.batches = 96;
+    first.batch_size = 10;
     expect_same_means(render(scene, first), render(reversed, other), 0.05);
 }
 
@@ -166,8 +168,10 @@ TEST_P(Metamorphic, ALampInFourPiecesShinesAsBefore)
     tests::EstimateOptions other = quick;
     other.path.seed = 23;
     other.batches = 96;
+    other.batch_size = 10;
     tests::EstimateOptions first = quick;
     first.batches = 96;
+    first.batch_size = 10;
     expect_same_means(render(scene, first), render(with_lamps_in_pieces(scene), other), 0.05);
 }
 

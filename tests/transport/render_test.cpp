@@ -85,6 +85,19 @@ TEST(Render, SaysHowFarItIs)
     EXPECT_EQ(last, 3.0);
 }
 
+TEST(Render, ShowsTheFilmAfterEachBatch)
+{
+    const ref::World world(scene(), width, height);
+    golden::Film film(width, height);
+    std::vector<golden::Film> seen;
+    ref::Monitor monitor;
+    monitor.kept = [&](const golden::Film& so_far) { seen.push_back(so_far); };
+    EXPECT_TRUE(ref::render(world, splash, {{.seed = 11}, 3, 2, 2}, film, monitor));
+    ASSERT_EQ(seen.size(), 3u);
+    EXPECT_EQ(seen[0], rendered(splash, 1, 1));
+    EXPECT_EQ(seen[2], film);
+}
+
 // What one walk spreads over the film is shared by the samples per pixel, once.
 TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel)
 {

@@ -1,0 +1,133 @@
+#include "cli/render_options.h"
+
+#include "golden/write_image.h"
+#include "ref/transport/bdpt.h"
+#include "ref/transport/path_tracer.h"
+
+#include <charconv>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+
+namespace cli {
+
+namespace {
+
+const std::map<std::string, ref::Integrator> integrators = {
+    {"path", ref::trace_path}, {"bdpt", ref::trace_bidirectionally}, {"light", ref::trace_light}};
+const std::map<std::string, ref::Heuristic> heuristics = {{"balance", ref::Heuristic::balance},
+                                                          {"power", ref::Heuristic::power}};
+
+void expect_ending(const std::string& path, const std::string& option, const std::string& ending)
+{
+    if (!path.empty() && std::filesystem::path(path).extension() != ending)
+        throw std::invalid_argument(option + " " + path + ": its name must end in " + ending);
+}
+
+} // namespace
+
+void add_render_options(CLI::App& command, RenderCommand& options)
+{
+    command.add_option("scene", options.scene, "COLLADA file")->required();
+    command.add_option("-o,--output", options.outputs, "Picture: .exr, .pfm or .png; may be repeated")
+        ->required();
+    command.add_option("--size", options.size, "Width x height in pixels")->capture_default_str();
+    command.add_option("-s,--samples", options.samples, "Samples per pixel in the end")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
+        ->capture_default_str();
+    command
+        .add_option("--batch", options.batch_size,
+                    "Samples per pixel in a batch, the unit of error and resuming")
+        ->check(CLI::Range(1u, 1u << 20))
+        ->capture_default_str();
+    command.add_option("-t,--threads", options.threads, "Threads; the picture does not depend on them")
+        ->check(CLI::Range(1u, 1024u))
+        ->capture_default_str();
+    command.add_option("--integrator", options.integrator, "path, bdpt (bidirectional) or light")
+        ->check(CLI::IsMember(integrators))
+        ->capture_default_str();
+    command.add_option("--heuristic", options.heuristic, "Weights of bdpt: balance or power")
+        ->check(CLI::IsMember(heuristics))
+        ->capture_default_str();
+    command
+        .add_option("--max-edges", options.max_edges,
+                    "Longest path, the camera's edge counted [no limit]")
+        ->check(CLI::Range(1, 1 << 20));
+    command.add_flag("--no-roulette", options.no_roulette, "Never end a path by chance");
+    command.add_option("--seed", options.seed, "Another seed, another noise")->capture_default_str();
+    command
+        .add_option("--exposure", options.exposure, "For .png: stops that the picture is brightened by")
+        ->check(CLI::Range(-64.0, 64.0))
+        ->capture_default_str();
+    command.add_flag("--frame", options.frame, "Move the camera back to where it sees the whole scene");
+    command.add_flag("--resume", options.resume,
+                     "Go on from the samples in the .exr output, if it is there");
+    command
+        .add_option("--watch", options.watch,
+                    "Rewrite the outputs every so many seconds while rendering")
+        ->check(CLI::Range(0.0, 1e9));
+    command.add_option("--strategies", options.strategies, "One layer per strategy (s,t), to this .exr");
+    command.add_option("--strategies-picture", options.strategies_picture,
+                       "The sheet of all strategies, to this .png");
+    command.add_flag("--unweighted", options.unweighted, "Strategies as if each were the only one");
+    command.add_flag("--json", options.json, "Print one JSON object with time, samples and mean");
+    command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
+}
+
+Size parse_size(const std::string& text)
+{
+    Size size{};
+    const char* const end = text.data() + text.size();
+    const auto [x, width_error] = std::from_chars(text.data(), end, size.width);
+    if (width_error == std::errc() && x != end && *x == 'x') {
+        const auto [rest, height_error] = std::from_chars(x + 1, end, size.height);
+        constexpr int largest = 1 << 16;
+        if (height_error == std::errc() && rest == end && size.width > 0 && size.height > 0 &&
+            size.width <= largest && size.height <= largest &&
+            size.width * 1ll * size.height <= 1ll << 28)
+            return size;
+    }
+    throw std::invalid_argument("--size " + text +
+                                ": expected WxH, such as 240x160, each from 1 to 65536 " +
+                                "and at most 2^28 pixels together");
+}
+
+void check(const RenderCommand& options)
+{
+    if (options.samples % options.batch_size != 0)
+        throw std::invalid_argument("-s " + std::to_string(options.samples) +
+                                    ": not a multiple of the " + std::to_string(options.batch_size) +
+                                    " samples of a batch (--batch)");
+    if (options.no_roulette && options.max_edges == ref::unlimited_edges)
+        throw std::invalid_argument("--no-roulette needs --max-edges: paths would never end");
+    const bool layers = !options.strategies.empty() || !options.strategies_picture.empty();
+    if (layers && options.max_edges > ref::most_edges_of_layers)
+        throw std::invalid_argument("--strategies needs --max-edges of at most " +
+                                    std::to_string(ref::most_edges_of_layers) +
+                                    ": one picture per strategy");
+    if (layers && options.resume)
+        throw std::invalid_argument(
+            "--strategies cannot be resumed: layers are kept without all their digits");
+    if (options.unweighted && !layers)
+        throw std::invalid_argument("--unweighted says what --strategies shows, and there is none");
+    expect_ending(options.strategies, "--strategies", ".exr");
+    expect_ending(options.strategies_picture, "--strategies-picture", ".png");
+    for (const std::string& path : {options.strategies, options.strategies_picture})
+        if (!path.empty()) golden::check_writable(path);
+    for (const std::string& path : options.outputs) golden::check_writable(path);
+}
+
+ref::Integrator integrator_of(const RenderCommand& options)
+{
+    return integrators.at(options.integrator);
+}
+
+ref::RenderOptions render_options(const RenderCommand& options)
+{
+    return {{options.seed, options.max_edges, !options.no_roulette, heuristics.at(options.heuristic)},
+            options.samples / options.batch_size,
+            options.batch_size,
+            options.threads};
+}
+
+} // namespace cli

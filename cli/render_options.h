@@ -1,0 +1,65 @@
+#pragma once
+
+// What `plumbline render` can be asked for.
+
+#include "golden/image.h"
+#include "ref/transport/render.h"
+#include "scenes/scene.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cli {
+
+struct Size {
+    int width, height;
+};
+
+struct RenderCommand {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::string size = "240x160";
+    std::uint64_t samples = 64;
+    std::uint32_t batch_size = 4;
+    unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+    std::string integrator = "path";
+    std::string heuristic = "balance";
+    int max_edges = ref::unlimited_edges;
+    bool no_roulette = false;
+    std::uint64_t seed = 0;
+    double exposure = 0.0;
+    bool frame = false;
+    bool resume = false;
+    double watch = 0.0; // seconds; 0: write once, at the end
+    std::string strategies;
+    std::string strategies_picture;
+    bool unweighted = false;
+    bool json = false;
+    bool quiet = false;
+};
+
+/// Adds the options to `command`, which sets `options` when it is parsed.
+void add_render_options(CLI::App& command, RenderCommand& options);
+
+/// The size that was asked for. Throws std::invalid_argument.
+Size parse_size(const std::string& text);
+
+/// Throws std::invalid_argument or golden::ImageError for options that cannot be meant, and for places
+/// that cannot be written to, before any work is done.
+void check(const RenderCommand& options);
+
+ref::Integrator integrator_of(const RenderCommand& options);
+ref::RenderOptions render_options(const RenderCommand& options);
+
+/// Everything that shapes the picture, and so must be the same for one render to go on from another.
+golden::Metadata describe(const RenderCommand& options, const scenes::Scene& scene);
+
+/// The film to start from: that of the file to resume, or an empty one. Throws std::invalid_argument or
+/// golden::ImageError if the file holds another picture than the one asked for.
+golden::Film starting_film(const RenderCommand& options, const golden::Metadata& description);
+
+} // namespace cli

@@ -1,0 +1,61 @@
+// Going on from an earlier render: what must agree, and what is taken over.
+
+#include "cli/render_options.h"
+#include "golden/exr.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+namespace cli {
+
+golden::Metadata describe(const RenderCommand& options, const scenes::Scene& scene)
+{
+    return {{"scene", scene.name},
+            {"scene_hash", scene.hash},
+            {"integrator", options.integrator},
+            {"heuristic", options.heuristic},
+            {"batch_size", std::to_string(options.batch_size)},
+            {"max_edges", options.max_edges == ref::unlimited_edges ? "unlimited"
+                                                                    : std::to_string(options.max_edges)},
+            {"roulette", options.no_roulette ? "off" : "on"},
+            {"seed", std::to_string(options.seed)},
+            {"camera", options.frame ? "framed" : "of the scene"},
+            {"version", PLUMBLINE_VERSION}};
+}
+
+golden::Film starting_film(const RenderCommand& options, const golden::Metadata& description)
+{
+    const Size size = parse_size(options.size);
+    const std::uint64_t batches = options.samples / options.batch_size;
+    if (!options.resume) return {size.width, size.height};
+    const auto exr =
+        std::find_if(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
+            return std::filesystem::path(path).extension() == ".exr";
+        });
+    if (exr == options.outputs.end())
+        throw std::invalid_argument(
+            "--resume needs an .exr among the outputs: only it holds all digits");
+    if (!std::filesystem::exists(*exr)) return {size.width, size.height};
+
+    golden::ExrPicture picture = golden::read_exr(*exr);
+    if (!picture.film) throw std::invalid_argument(*exr + ": holds no state to resume from");
+    for (const auto& [name, value] : description) {
+        const auto found = picture.metadata.find(name);
+        if (found == picture.metadata.end() || found->second != value)
+            throw std::invalid_argument(*exr + ": cannot resume: its " + name + " is '" +
+                                        (found == picture.metadata.end() ? "" : found->second) +
+                                        "', not '" + value + "'");
+    }
+    const golden::Image& mean = picture.film->mean();
+    if (mean.width != size.width || mean.height != size.height)
+        throw std::invalid_argument(*exr + ": cannot resume: it has " + std::to_string(mean.width) +
+                                    "x" + std::to_string(mean.height) + " pixels, not " + options.size);
+    if (picture.film->batches() > batches)
+        throw std::invalid_argument(
+            *exr + ": holds " + std::to_string(picture.film->batches() * options.batch_size) +
+            " samples per pixel already, more than -s " + std::to_string(options.samples));
+    return std::move(*picture.film);
+}
+
+} // namespace cli
