@@ -37,7 +37,7 @@ std::vector<ref::Aabb> boxes_at(const ref::Tree& tree, int level)
         const auto [node, depth] = visits.back();
         visits.pop_back();
         if (depth == level || tree.is_leaf(node)) {
-            boxes.push_back(tree.nodes[node].bounds);
+            boxes.push_back(tree.bounds[node]);
             continue;
         }
         for (const std::uint32_t child : tree.nodes[node].children) visits.push_back({child, depth + 1});

@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace ref {
 
@@ -45,11 +44,10 @@ inline double half_area(const Aabb& box)
     return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-/// The middle; does not overflow.
+/// The middle. Halves before it adds: does not overflow.
 inline Vec3 centroid(const Aabb& box)
 {
-    return {std::midpoint(box.lower.x, box.upper.x), std::midpoint(box.lower.y, box.upper.y),
-            std::midpoint(box.lower.z, box.upper.z)};
+    return 0.5 * box.lower + 0.5 * box.upper;
 }
 
 inline bool is_finite(const Vec3& v)

@@ -12,7 +12,7 @@ Geometry::Geometry(const scenes::Scene& scene, Builder builder)
     : scene_(&scene), tree_(build(primitive_bounds(scene), builder)), diagonal_(0)
 {
     if (tree_.nodes.empty()) return;
-    const Aabb& box = tree_.nodes[0].bounds;
+    const Aabb& box = tree_.bounds[0];
     diagonal_ = glm::length(box.upper - box.lower);
 }
 

@@ -30,6 +30,8 @@ void check_sizes(const Tree& tree, std::size_t primitives, Violations& violation
     const std::size_t expected = leaves == 0 ? 0 : 2 * leaves - 1;
     if (tree.nodes.size() != expected)
         violations.add(leaves, " leaves need ", expected, " nodes, not ", tree.nodes.size());
+    if (tree.bounds.size() != tree.nodes.size())
+        violations.add(tree.nodes.size(), " nodes need as many boxes, not ", tree.bounds.size());
     if (primitives > 0 && leaves == 0) violations.add("no leaf for ", primitives, " primitives");
 }
 
@@ -114,9 +116,9 @@ void check_boxes(const Tree& tree, std::span<const Aabb> primitive_bounds, Viola
                 expected = unite(expected, primitive_bounds[tree.primitives[i]]);
         } else {
             for (const std::uint32_t child : tree.nodes[node].children)
-                expected = unite(expected, tree.nodes[child].bounds);
+                expected = unite(expected, tree.bounds[child]);
         }
-        if (!(tree.nodes[node].bounds == expected))
+        if (!(tree.bounds[node] == expected))
             violations.add("the box of node ", node, " is not the union of those below it");
     }
 }

@@ -11,7 +11,7 @@ Quality quality(const Tree& tree)
 {
     Quality result;
     if (tree.nodes.empty()) return result;
-    const double root_area = half_area(tree.nodes[0].bounds);
+    const double root_area = half_area(tree.bounds[0]);
     const auto share = [&](const Aabb& box) { return root_area > 0 ? half_area(box) / root_area : 1; };
 
     struct Visit {
@@ -22,7 +22,7 @@ Quality quality(const Tree& tree)
     while (!visits.empty()) {
         const auto [node, depth] = visits.back();
         visits.pop_back();
-        const Aabb& bounds = tree.nodes[node].bounds;
+        const Aabb& bounds = tree.bounds[node];
         if (tree.is_leaf(node)) {
             const std::uint32_t leaf = tree.leaf(node);
             const std::uint32_t count = tree.leaf_begin[leaf + 1] - tree.leaf_begin[leaf];
@@ -32,7 +32,7 @@ Quality quality(const Tree& tree)
         } else {
             result.sah_cost += C_trav * share(bounds);
             const auto [left, right] = tree.nodes[node].children;
-            const Aabb both = intersection(tree.nodes[left].bounds, tree.nodes[right].bounds);
+            const Aabb both = intersection(tree.bounds[left], tree.bounds[right]);
             if (!is_empty(both)) result.overlap += share(both);
             visits.push_back({left, depth + 1});
             visits.push_back({right, depth + 1});

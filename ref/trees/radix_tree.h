@@ -72,8 +72,8 @@ inline std::uint32_t radix_child(std::int64_t first, std::int64_t last, std::int
     return static_cast<std::uint32_t>(first == last ? leaves_begin + first : at_split);
 }
 
-/// The nodes of the tree over `codes`, which must be sorted: children and parents; the boxes are left
-/// empty. 2 n - 1 nodes, numbered as in tree.h; none for n = 0. Depth at most code bits + ceil(log2 n).
+/// The nodes of the tree over `codes`, which must be sorted: children and parents.
+/// 2 n - 1 nodes, numbered as in tree.h; none for n = 0. Depth at most code bits + ceil(log2 n).
 inline std::vector<Node> radix_tree(Codes codes)
 {
     const std::size_t n = codes.size();

@@ -19,18 +19,21 @@ namespace ref {
 inline void refit(Tree& tree, std::span<const Aabb> primitive_bounds,
                   std::span<const std::uint32_t> leaf_order)
 {
+    tree.bounds.resize(tree.nodes.size());
+    for (std::uint32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+        Aabb bounds;
+        for (std::uint32_t i = tree.leaf_begin[leaf]; i < tree.leaf_begin[leaf + 1]; ++i)
+            bounds = unite(bounds, primitive_bounds[tree.primitives[i]]);
+        tree.bounds[tree.internal_count() + leaf] = bounds;
+    }
     std::vector<std::uint8_t> arrivals(tree.internal_count(), 0);
     for (const std::uint32_t leaf : leaf_order) {
         std::uint32_t node = tree.internal_count() + leaf;
-        tree.nodes[node].bounds = Aabb{};
-        for (std::uint32_t i = tree.leaf_begin[leaf]; i < tree.leaf_begin[leaf + 1]; ++i)
-            tree.nodes[node].bounds =
-                unite(tree.nodes[node].bounds, primitive_bounds[tree.primitives[i]]);
         for (;;) {
             node = tree.nodes[node].parent;
             if (node == no_node || arrivals[node]++ == 0) break;
             const auto [left, right] = tree.nodes[node].children;
-            tree.nodes[node].bounds = unite(tree.nodes[left].bounds, tree.nodes[right].bounds);
+            tree.bounds[node] = unite(tree.bounds[left], tree.bounds[right]);
         }
     }
 }

@@ -78,7 +78,7 @@ Work traverse(const Tree& tree, const Ray& ray, Test test)
 {
     Work work;
     if (tree.nodes.empty()) return work;
-    const Slabs slabs(ray, tree.nodes[0].bounds);
+    const Slabs slabs(ray, tree.bounds[0]);
     double limit = ray.t_max;
 
     struct Entry {
@@ -94,7 +94,7 @@ Work traverse(const Tree& tree, const Ray& ray, Test test)
         if (entry.t <= limit && entry.t < std::numeric_limits<double>::infinity())
             stack.push_back(entry);
     };
-    push({slabs.entry(tree.nodes[0].bounds), 0});
+    push({slabs.entry(tree.bounds[0]), 0});
     while (!stack.empty()) {
         const Entry entry = stack.back();
         stack.pop_back();
@@ -109,8 +109,8 @@ Work traverse(const Tree& tree, const Ray& ray, Test test)
             continue;
         }
         const auto [left, right] = tree.nodes[entry.node].children;
-        const Entry a{slabs.entry(tree.nodes[left].bounds), left};
-        const Entry b{slabs.entry(tree.nodes[right].bounds), right};
+        const Entry a{slabs.entry(tree.bounds[left]), left};
+        const Entry b{slabs.entry(tree.bounds[right]), right};
         push(a.t <= b.t ? b : a);
         push(a.t <= b.t ? a : b);
     }

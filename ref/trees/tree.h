@@ -14,7 +14,6 @@ namespace ref {
 constexpr std::uint32_t no_node = 0xffff'ffff;
 
 struct Node {
-    Aabb bounds;
     std::array<std::uint32_t, 2> children{no_node, no_node};
     std::uint32_t parent = no_node;
     friend bool operator==(const Node&, const Node&) = default;
@@ -26,6 +25,7 @@ struct Node {
 /// primitives: no nodes. One leaf: it is the root.
 struct Tree {
     std::vector<Node> nodes;
+    std::vector<Aabb> bounds;              // one per node
     std::vector<std::uint32_t> leaf_begin; // L + 1 numbers
     std::vector<std::uint32_t> primitives;
     friend bool operator==(const Tree&, const Tree&) = default;

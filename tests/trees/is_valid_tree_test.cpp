@@ -29,6 +29,7 @@ TEST(IsValidTree, NamesWhatIsBroken)
     const std::vector<Broken> kinds = {
         {"a node too few", [](Tree& t) { t.nodes.pop_back(); }, "need"},
         {"a node too many", [](Tree& t) { t.nodes.emplace_back(); }, "need"},
+        {"a box too few", [](Tree& t) { t.bounds.pop_back(); }, "boxes"},
         {"no nodes", [](Tree& t) { t.nodes.clear(); }, "need"},
         {"no leaves", [](Tree& t) { t = Tree{}; }, "no leaf"},
         {"a primitive twice", [](Tree& t) { t.primitives[0] = t.primitives[1]; }, "times"},
@@ -51,19 +52,15 @@ TEST(IsValidTree, NamesWhatIsBroken)
         {"children in the wrong order",
          [](Tree& t) { std::swap(t.nodes[0].children[0], t.nodes[0].children[1]); }, "range"},
         {"a box too small",
-         [](Tree& t) { t.nodes[0].bounds.upper.x = std::nextafter(t.nodes[0].bounds.upper.x, -9.0); },
+         [](Tree& t) { t.bounds[0].upper.x = std::nextafter(t.bounds[0].upper.x, -9.0); },
          "box of node 0"},
         {"a box too large",
-         [](Tree& t) { t.nodes[10].bounds.lower.z = std::nextafter(t.nodes[10].bounds.lower.z, -9.0); },
+         [](Tree& t) { t.bounds[10].lower.z = std::nextafter(t.bounds[10].lower.z, -9.0); },
          "box of node 10"},
-        {"the scene's box everywhere",
-         [](Tree& t) {
-             for (ref::Node& n : t.nodes) n.bounds = t.nodes[0].bounds;
-         },
+        {"the scene's box everywhere", [](Tree& t) { t.bounds.assign(t.bounds.size(), t.bounds[0]); },
          "box of node"},
-        {"an empty box", [](Tree& t) { t.nodes[3].bounds = Aabb{}; }, "box of node 3"},
-        {"not a number in a box", [](Tree& t) { t.nodes[3].bounds.lower.x = std::nan(""); },
-         "box of node 3"},
+        {"an empty box", [](Tree& t) { t.bounds[3] = Aabb{}; }, "box of node 3"},
+        {"not a number in a box", [](Tree& t) { t.bounds[3].lower.x = std::nan(""); }, "box of node 3"},
     };
     for (const Broken& kind : kinds) {
         Tree tree = good;

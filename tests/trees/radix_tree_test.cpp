@@ -20,6 +20,7 @@ Tree tree_over(const Codes& codes)
 {
     Tree tree;
     tree.nodes = ref::radix_tree(codes);
+    tree.bounds.resize(tree.nodes.size());
     tree.primitives.resize(codes.size());
     std::iota(tree.primitives.begin(), tree.primitives.end(), 0);
     tree.leaf_begin.resize(codes.size() + 1);

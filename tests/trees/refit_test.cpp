@@ -24,7 +24,7 @@ Aabb box_below(const Tree& tree, std::span<const Aabb> boxes, std::uint32_t node
 
 Tree without_boxes(Tree tree)
 {
-    for (ref::Node& node : tree.nodes) node.bounds = {ref::Vec3(-77), ref::Vec3(77)};
+    for (Aabb& box : tree.bounds) box = {ref::Vec3(-77), ref::Vec3(77)};
     return tree;
 }
 
@@ -41,7 +41,7 @@ TEST(Refit, GivesTheSameBoxesForEveryOrderOfArrival) // all orders of up to 6 le
                 Tree tree = without_boxes(built);
                 refit(tree, boxes, order);
                 for (std::uint32_t node = 0; node < tree.nodes.size(); ++node)
-                    ASSERT_EQ(tree.nodes[node].bounds, box_below(tree, boxes, node)) << "n " << n;
+                    ASSERT_EQ(tree.bounds[node], box_below(tree, boxes, node)) << "n " << n;
             } while (std::next_permutation(order.begin(), order.end()));
         }
 }

@@ -83,7 +83,7 @@ RC_GTEST_PROP(BuildSah, MakesALeafExactlyWhereThatIsNoDearer, ())
     for (std::uint32_t node = 0; node < tree.nodes.size(); ++node) {
         const auto primitives = primitives_below(tree, node);
         if (primitives.size() == 1) continue;
-        const double area = half_area(tree.nodes[node].bounds);
+        const double area = half_area(tree.bounds[node]);
         const double as_leaf = ref::C_isect * area * static_cast<double>(primitives.size());
         const double as_node = ref::C_trav * area + ref::C_isect * least_split_cost(boxes, primitives);
         RC_ASSERT(tree.is_leaf(node) == (primitives.size() <= max_leaf_size && as_leaf <= as_node));

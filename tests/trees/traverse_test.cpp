@@ -219,16 +219,17 @@ Tree chain(std::span<const Aabb> boxes)
     Tree tree;
     const auto n = static_cast<std::uint32_t>(boxes.size());
     tree.nodes.resize(2 * n - 1);
+    tree.bounds.resize(2 * n - 1);
     for (std::uint32_t i = 0; i + 1 < n; ++i) {
         tree.nodes[i].children = {n - 1 + i, i + 2 < n ? i + 1 : 2 * n - 2};
         for (const std::uint32_t child : tree.nodes[i].children) tree.nodes[child].parent = i;
     }
     for (std::uint32_t i = 0; i <= n; ++i) tree.leaf_begin.push_back(i);
     for (std::uint32_t i = 0; i < n; ++i) tree.primitives.push_back(i);
-    for (std::uint32_t i = n; i-- > 0;) tree.nodes[n - 1 + i].bounds = boxes[i];
+    for (std::uint32_t i = n; i-- > 0;) tree.bounds[n - 1 + i] = boxes[i];
     for (std::uint32_t i = n - 1; i-- > 0;)
-        tree.nodes[i].bounds = unite(tree.nodes[tree.nodes[i].children[0]].bounds,
-                                     tree.nodes[tree.nodes[i].children[1]].bounds);
+        tree.bounds[i] =
+            unite(tree.bounds[tree.nodes[i].children[0]], tree.bounds[tree.nodes[i].children[1]]);
     return tree;
 }
 
