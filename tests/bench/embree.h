@@ -1,0 +1,26 @@
+#pragma once
+
+// Embree as a yardstick, if it is there: its Morton builder (low quality), one thread, single precision.
+
+#include "ref/trees/ray.h"
+
+#include <benchmark/benchmark.h>
+
+#include <vector>
+
+namespace bench {
+
+#ifdef PLUMBLINE_HAVE_EMBREE
+constexpr bool have_embree = true;
+#else
+constexpr bool have_embree = false;
+#endif
+
+/// Times the building of a tree over the scene's triangles; spheres are left out.
+void embree_build(benchmark::State& state, const scenes::Scene& scene);
+
+/// Times the closest hits of `rays`.
+void embree_trace(benchmark::State& state, const scenes::Scene& scene,
+                  const std::vector<ref::Ray>& rays);
+
+} // namespace bench
