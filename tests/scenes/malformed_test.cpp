@@ -190,6 +190,7 @@ struct Mistake {
     std::string message;
 };
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name that GoogleTest calls
 void PrintTo(const Mistake& mistake, std::ostream* stream)
 {
     *stream << mistake.name;

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <functional>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -83,9 +84,9 @@ std::vector<Vec3> read_below(const std::vector<std::vector<Step>>& nodes)
                     "offset=\"0\"/><p>0 1 2</p></triangles>");
     text.nodes = tests::instance_geometry("t");
     bool mirrored = false;
-    for (auto steps = nodes.rbegin(); steps != nodes.rend(); ++steps) {
+    for (const auto& steps : std::views::reverse(nodes)) {
         std::string transforms;
-        for (const Step& step : *steps) {
+        for (const Step& step : steps) {
             transforms += step.text;
             if (step.text.find("scale") != std::string::npos) mirrored = !mirrored; // by a negative y
         }
@@ -100,8 +101,8 @@ std::vector<Vec3> read_below(const std::vector<std::vector<Step>>& nodes)
 
 Vec3 take_to_world(const std::vector<std::vector<Step>>& nodes, Vec3 point)
 {
-    for (auto steps = nodes.rbegin(); steps != nodes.rend(); ++steps)
-        for (auto step = steps->rbegin(); step != steps->rend(); ++step) point = step->apply(point);
+    for (const auto& steps : std::views::reverse(nodes))
+        for (const Step& step : std::views::reverse(steps)) point = step.apply(point);
     return point;
 }
 
