@@ -1,6 +1,6 @@
 #pragma once
 
-// The classic picture of bidirectional path tracing [Veach 1997, fig. 10.5]: all strategies at one
+// The classic picture of bidirectional path tracing [Veach 1997, sec. 10.3]: all strategies at one
 // glance.
 
 #include "golden/image.h"

@@ -91,7 +91,7 @@ inline BsdfSample sample_bsdf(const scenes::Glass& glass, const Vec3& wo, const 
     const double eta = eta_i / eta_t;
     const Vec3 wi(-eta * wo.x, -eta * wo.y, outside ? -cos_t : cos_t);
     // Radiance is squeezed into a smaller solid angle on the denser side; power is not
-    // [Veach 1997, eq. 5.12 and sec. 5.2.2].
+    // [Veach 1997, sec. 5.2].
     const double scale = carried == Transport::radiance ? eta * eta : 1.0;
     return {glm::normalize(wi), glass.transmittance * scale, 1.0 - reflected, 1.0 - reflected, true};
 }

@@ -3,7 +3,7 @@
 // The pinhole camera: from a point of the film to a ray and back, and what the film measures.
 //
 // A pixel's value is the mean radiance over the pixel. As a measurement of the light that reaches the
-// pinhole [Veach 1997, eq. 8.7] its importance is W_e = 1 / (A cos^4) for a film of area A at distance
+// pinhole [Veach 1997, sec. 8.2] its importance is W_e = 1 / (A cos^4) for a film of area A at distance
 // 1, times the number of pixels, on the pixel itself: one power of the cosine for the tilted pinhole,
 // three for the solid angle that a piece of the film spans. With as many light walks as eye walks over
 // the whole film that number cancels, and what a light walk adds to a pixel is divided by the samples

@@ -85,7 +85,7 @@ double pdf_solid_angle_incident(const Emitters& emitters, const Vec3& from, cons
 /// The same for a direction in which a ray meets nothing but the environment.
 double pdf_solid_angle_environment(const Emitters& emitters);
 
-/// Converts a density on a surface to one of directions seen from `from` [Veach 1997, eq. 8.8].
+/// Converts a density on a surface to one of directions seen from `from` [Veach 1997, eq. 8.10].
 inline double area_to_solid_angle(double pdf_area, const Vec3& from, const Vec3& point,
                                   const Vec3& normal)
 {

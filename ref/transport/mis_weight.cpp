@@ -22,7 +22,7 @@ double pdf_next(const World& world, const PathOptions& options, const Vertex& pr
     const double pdf = pdf_solid_angle * survival_probability(material, bounce, options.roulette);
     if (next.kind == Vertex::Kind::infinity) return pdf;
     const Vec3 d = next.point.position - vertex.point.position;
-    return pdf * cosine(next, w) / glm::dot(d, d); // [Veach 1997, eq. 8.8]
+    return pdf * cosine(next, w) / glm::dot(d, d); // [Veach 1997, eq. 8.10]
 }
 
 /// The density of x_{k-1}, which the camera's ray finds.
@@ -89,7 +89,7 @@ double mis_weight(const World& world, const PathOptions& options, const Path& x,
     for (const long double p_i : p) {
         const long double ratio = p_i / p[s];
         sum += options.heuristic == Heuristic::balance ? ratio
-                                                       : ratio * ratio; // [Veach 1997, eq. 9.8, 9.11]
+                                                       : ratio * ratio; // [Veach 1997, sec. 9.2]
     }
     return static_cast<double>(1.0L / sum);
 }

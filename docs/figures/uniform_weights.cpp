@@ -1,0 +1,153 @@
+// What happens to glass when every path is shared equally among all strategies that one can name,
+// whether or not they can find it: the weights 1 / (i + j + 1) of a 2015 course report, for i eye and j
+// light vertices after the first, beside the right ones and beside path tracing.
+//
+// usage: figure_uniform_weights SCENE.dae OUT.png
+// Writes the three pictures side by side, and the table of docs/bdpt.md to stdout.
+
+#include "golden/label.h"
+#include "golden/png.h"
+#include "ref/transport/bdpt.h"
+#include "ref/transport/path_tracer.h"
+#include "ref/transport/render.h"
+#include "scenes/read_scene.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+constexpr int width = 240;
+constexpr int height = 160;
+constexpr int runs = 12; // independent ones, for standard errors
+constexpr int samples_per_run = 8;
+constexpr int max_edges = 6;
+
+enum Method { uniform_weights, right_weights, path_tracing, methods };
+enum Region { diffuse, mirror, glass, regions };
+constexpr std::array<const char*, regions> region_names = {"diffuse surfaces", "mirror sphere",
+                                                           "glass sphere"};
+
+/// What the centre of a pixel sees.
+Region region_of(const ref::World& world, int x, int y)
+{
+    const auto hit = intersect(world.geometry, world.camera.ray({x + 0.5, y + 0.5}));
+    if (!hit) return diffuse;
+    const auto& material = world.scene.materials[material_of(world.scene, hit->primitive)];
+    if (std::holds_alternative<scenes::Glass>(material)) return glass;
+    return std::holds_alternative<scenes::Mirror>(material) ? mirror : diffuse;
+}
+
+/// Of k edges, k strategies s = 1 ... k are counted, each with 1 / k; light seen directly is Case I.
+golden::Image with_uniform_weights(const ref::StrategyLayers& unweighted)
+{
+    golden::Image sum(width, height);
+    for (const auto& [strategy, image] : unweighted.means()) {
+        const auto [s, t] = strategy;
+        const int k = s + t - 1;
+        const double weight = k == 1 ? (s == 0 ? 1.0 : 0.0) : (s == 0 ? 0.0 : 1.0 / k);
+        for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += weight * image.pixels[i];
+    }
+    return sum;
+}
+
+/// One run of each method. The two weightings share their paths: they differ in the weights alone.
+std::array<golden::Image, methods> rendered(const ref::World& world, std::uint64_t run)
+{
+    ref::RenderOptions options{{.seed = run, .max_edges = max_edges},
+                               samples_per_run / 4,
+                               4,
+                               std::max(1U, std::thread::hardware_concurrency())};
+    ref::StrategyLayers unweighted(width, height, max_edges, false);
+    golden::Film bidirectional(width, height);
+    ref::render(world, ref::trace_bidirectionally, options, bidirectional, {}, &unweighted);
+    golden::Film unidirectional(width, height);
+    options.path.seed = run + 1000;
+    ref::render(world, ref::trace_path, options, unidirectional);
+    return {with_uniform_weights(unweighted), bidirectional.mean(), unidirectional.mean()};
+}
+
+/// Mean over channels of a region's pixels.
+std::array<double, regions> region_means(const golden::Image& image, const std::vector<Region>& region)
+{
+    std::array<double, regions> sum{};
+    std::array<int, regions> count{};
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        sum[region[i]] += (image.pixels[i].x + image.pixels[i].y + image.pixels[i].z) / 3.0;
+        ++count[region[i]];
+    }
+    for (std::size_t r = 0; r < regions; ++r) sum[r] /= count[r];
+    return sum;
+}
+
+void draw(const scenes::Scene& scene, const char* out)
+{
+    const ref::World world(scene, width, height);
+    std::vector<Region> region;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) region.push_back(region_of(world, x, y));
+
+    constexpr int label = 14;
+    golden::Image side_by_side(methods * width, height + label);
+    std::array<std::array<std::vector<double>, regions>, methods> means;
+    for (int run = 0; run < runs; ++run) {
+        const auto images = rendered(world, static_cast<std::uint64_t>(run));
+        for (std::size_t method = 0; method < methods; ++method) {
+            const auto by_region = region_means(images[method], region);
+            for (std::size_t r = 0; r < regions; ++r) means[method][r].push_back(by_region[r]);
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x)
+                    side_by_side.pixels[static_cast<std::size_t>((y + label) * side_by_side.width +
+                                                                 static_cast<int>(method) * width + x)] +=
+                        images[method].pixels[static_cast<std::size_t>(y * width + x)] / static_cast<double>(runs);
+        }
+    }
+    constexpr std::array names = {"1 / (i + j + 1)", "balance heuristic", "path tracing"};
+    for (int method = 0; method < methods; ++method)
+        golden::draw_text(side_by_side, method * width + 4, 3, names[static_cast<std::size_t>(method)],
+                          golden::Rgb(0.8));
+    golden::write_png(out, side_by_side);
+
+    const auto statistics = [](const std::vector<double>& values) {
+        double mean = 0.0;
+        double squares = 0.0;
+        for (const double v : values) mean += v / runs;
+        for (const double v : values) squares += (v - mean) * (v - mean);
+        return std::pair(mean, std::sqrt(squares / (runs * (runs - 1.0))));
+    };
+    std::printf("| region | 1 / (i + j + 1) | balance heuristic | path tracing | first / last | second "
+                "/ last |\n"
+                "|---|---|---|---|---|---|\n");
+    for (std::size_t r = 0; r < regions; ++r) {
+        std::printf("| %s |", region_names[r]);
+        for (const auto& method : means)
+            std::printf(" %.5f +- %.5f |", statistics(method[r]).first, statistics(method[r]).second);
+        const auto [truth, truth_error] = statistics(means[path_tracing][r]);
+        for (const Method method : {uniform_weights, right_weights}) {
+            const auto [mean, error] = statistics(means[method][r]);
+            const double ratio = mean / truth;
+            std::printf(" %.4f +- %.4f |", ratio, ratio * std::hypot(error / mean, truth_error / truth));
+        }
+        std::printf("\n");
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    try {
+        if (argc != 3) throw std::invalid_argument("usage: figure_uniform_weights SCENE.dae OUT.png");
+        draw(scenes::read_scene(argv[1]), argv[2]);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "figure_uniform_weights: %s\n", error.what());
+        return 2;
+    }
+}
