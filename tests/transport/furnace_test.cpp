@@ -65,12 +65,13 @@ TEST_P(Furnace, WhiteObjectsCannotBeSeen)
 {
     const scenes::Scene scene = tests::our_scene("furnace");
     const ref::World world(scene, 24, 16);
-    const auto batches = tests::estimate(world, GetParam().integrator,
-                                         {.batches = 32, .batch_size = 16, .path = {.seed = 33}});
+    const auto batches =
+        tests::estimate(world, GetParam().integrator,
+                        {.batches = 32, .batch_size = GetParam().samples(16), .path = {.seed = 33}});
     tests::expect_picture(
         batches,
         tests::known_picture(*scene.camera, 24, 16, [&](const Line&) { return scene.environment; }),
-        0.01);
+        GetParam().bias(0.015));
 }
 
 // Light of each length, with all strategies weighted, against the light of that length that walks of the
@@ -81,18 +82,20 @@ TEST_P(Furnace, EachLengthBringsWhatWalksAloneFind)
     const ref::World world(scene, 24, 16);
     constexpr int longest = 6;
     const ref::PathOptions options{.seed = 34, .max_edges = longest, .roulette = false};
-    const auto weighted =
-        tests::estimate(world, GetParam().integrator, {.batches = 32, .batch_size = 16, .path = options},
-                        longest + 1, by_edges);
+    const auto weighted = tests::estimate(
+        world, GetParam().integrator,
+        {.batches = 32, .batch_size = GetParam().samples(16), .path = options}, longest + 1, by_edges);
     ref::PathOptions other = options;
     other.seed = 35;
     const auto alone = tests::estimate(
-        world, ref::trace_path, {.batches = 32, .batch_size = 16, .weighted = false, .path = other},
+        world, ref::trace_path,
+        {.batches = 32, .batch_size = GetParam().samples(16), .weighted = false, .path = other},
         longest + 1, [](const Contribution& c) { return c.s == 0 ? edges(c) : -1; });
     double below = 0.0;
     for (std::size_t k = 1; k <= longest; ++k) {
         const auto part = tests::measure(weighted[k], {0, 0, 24, 16}, 1);
-        tests::expect_equal_means(part, tests::measure(alone[k], {0, 0, 24, 16}, 1), 0.35);
+        tests::expect_equal_means(part, tests::measure(alone[k], {0, 0, 24, 16}, 1),
+                                  GetParam().bias(0.35));
         EXPECT_GT(part.mean, 0.0); // truncated, the picture rises with each edge
         below += part.mean;
     }
@@ -121,7 +124,7 @@ protected:
     }
 
     /// The confidence interval of the mean over a sphere reaches neither below nor above the bounds, and
-    /// is narrower than two hundredths.
+    /// is narrow: two hundredths, for the fastest integrator.
     void expect_between(const tests::Batches& batches, std::uint32_t sphere, const Rgb& low,
                         const Rgb& high) const
     {
@@ -135,7 +138,7 @@ protected:
                 measured.standard_error * tests::t_quantile(measured.batches - 1.0, tests::alpha / 2.0);
             EXPECT_GE(measured.mean + half, low[channel]) << "sphere " << sphere;
             EXPECT_LE(measured.mean - half, high[channel]) << "sphere " << sphere;
-            EXPECT_LE(half, 0.02 * high[channel]) << "the test is too weak";
+            EXPECT_LE(half, GetParam().bias(0.02) * high[channel]) << "the test is too weak";
         }
     }
 };
@@ -144,9 +147,10 @@ INSTANTIATE_TEST_SUITE_P(Integrators, GreyFurnace, tests::integrators(), tests::
 
 TEST_P(GreyFurnace, LightLiesBetweenItsBounds)
 {
-    const auto batches = tests::estimate(world, GetParam().integrator,
-                                         {.batches = 32, .batch_size = 16, .path = {.seed = 36}}, 2,
-                                         [](const Contribution& c) { return edges(c) <= 2 ? 0 : 1; });
+    const auto batches =
+        tests::estimate(world, GetParam().integrator,
+                        {.batches = 32, .batch_size = GetParam().samples(16), .path = {.seed = 36}}, 2,
+                        [](const Contribution& c) { return edges(c) <= 2 ? 0 : 1; });
     tests::Batches together = batches[0];
     for (std::size_t b = 0; b < together.size(); ++b)
         for (std::size_t i = 0; i < together[b].pixels.size(); ++i)
@@ -170,11 +174,12 @@ TEST_P(GreyFurnace, ConvexAndAloneItReflectsItsAlbedo)
     camera.up = {0.0, 0.0, 1.0};
     camera.fov = 0.01; // 0.13 wide at the sphere: its rim does not come into view
     const ref::World left(from_the_left, 8, 8);
-    const auto batches = tests::estimate(left, GetParam().integrator,
-                                         {.batches = 32, .batch_size = 32, .path = {.seed = 37}});
+    const auto batches =
+        tests::estimate(left, GetParam().integrator,
+                        {.batches = 32, .batch_size = GetParam().samples(32), .path = {.seed = 37}});
     for (int channel = 0; channel < 3; ++channel)
         tests::expect_mean(tests::measure(batches, {0, 0, 8, 8}, channel), rho[channel] * sky[channel],
-                           0.015);
+                           GetParam().bias(0.015));
 }
 
 // Every bounce off grey multiplies by its albedo, and nothing else changes what a walk brings: not
@@ -223,9 +228,10 @@ TEST_P(Furnace, IntegratingSphereWithALamp)
 
     const ref::World world(scene, size, size);
     constexpr int longest = 8;
-    const auto batches =
-        tests::estimate(world, GetParam().integrator,
-                        {.batches = 32, .batch_size = 8, .path = {.seed = 39}}, longest + 1, by_edges);
+    const auto batches = tests::estimate(
+        world, GetParam().integrator,
+        {.batches = 32, .batch_size = GetParam().samples(8), .path = {.seed = 39, .max_edges = longest}},
+        longest + 1, by_edges);
     for (int k = 1; k <= longest; ++k) {
         const Rgb on_wall =
             k == 1 ? Rgb(0.0) : rho * radiance * q * glm::pow(rho * (1.0 - q), Rgb(k - 2));
@@ -236,7 +242,8 @@ TEST_P(Furnace, IntegratingSphereWithALamp)
             });
         SCOPED_TRACE(std::to_string(k) + " edges");
         // Fewer and fewer walks are that long: of green, the brightest, 0.73 per bounce.
-        tests::expect_picture(batches[static_cast<std::size_t>(k)], known, k <= 6 ? 0.08 : 0.16, 2);
+        tests::expect_picture(batches[static_cast<std::size_t>(k)], known,
+                              GetParam().bias(k <= 6 ? 0.08 : 0.16), 2);
     }
 }
 

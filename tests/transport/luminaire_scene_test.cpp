@@ -18,6 +18,7 @@ const Vec3 upwards(0.0, 0.0, 1.0);
 class LuminaireScene : public tests::OfEveryIntegrator {};
 
 INSTANTIATE_TEST_SUITE_P(Integrators, LuminaireScene, tests::integrators(), tests::name_of);
+INSTANTIATE_TEST_SUITE_P(LightTracer, LuminaireScene, tests::light_tracer(), tests::name_of);
 
 int by_edges(const Contribution& c)
 {
@@ -80,9 +81,10 @@ TEST_P(LuminaireScene, AnAreaLightShinesForwardsOnly)
             return tests::albedo_at(scene, *seen) / tests::pi * light.radiance *
                    tests::polygon_irradiance(seen->point, upwards, light.corners);
         });
-    const auto batches = tests::estimate(world, GetParam().integrator,
-                                         {.batches = 32, .batch_size = 24, .path = {.seed = 52}});
-    tests::expect_picture(batches, known, 0.03);
+    const auto batches =
+        tests::estimate(world, GetParam().integrator,
+                        {.batches = 32, .batch_size = GetParam().samples(24), .path = {.seed = 52}});
+    tests::expect_picture(batches, known, GetParam().bias(0.03));
 }
 
 TEST(LuminaireSceneBySample, BehindAnAreaLightItIsDark)
@@ -124,9 +126,10 @@ TEST_P(LuminaireScene, ACardCloseToALuminaireCastsItsShadow)
             return tests::albedo_at(scene, *seen) / tests::pi * light.radiance *
                    tests::polygon_irradiance(seen->point, upwards, light.corners);
         });
-    const auto batches = tests::estimate(world, GetParam().integrator,
-                                         {.batches = 32, .batch_size = 8, .path = {.seed = 54}});
-    tests::expect_picture(batches, known, 0.03);
+    const auto batches =
+        tests::estimate(world, GetParam().integrator,
+                        {.batches = 32, .batch_size = GetParam().samples(8), .path = {.seed = 54}});
+    tests::expect_picture(batches, known, GetParam().bias(0.03));
 }
 
 TEST(LuminaireSceneBySample, NothingLeaksPastACardCloseToALuminaire)
@@ -184,7 +187,8 @@ TEST_P(LuminaireScene, ACeilingLampLightsTheCeilingDirectly)
     const Quadrangle lamp = luminaire_of(scene);
     const auto batches = tests::estimate(
         world, GetParam().integrator,
-        {.batches = 32, .batch_size = 8, .path = {.seed = 57, .max_edges = 2}}, 3, by_edges);
+        {.batches = 32, .batch_size = GetParam().samples(8), .path = {.seed = 57, .max_edges = 2}}, 3,
+        by_edges);
     const auto known =
         tests::known_picture(*scene.camera, width, height, [&](const Line& line) -> std::optional<Rgb> {
             const auto seen = tests::first_seen(scene, line);
@@ -199,7 +203,7 @@ TEST_P(LuminaireScene, ACeilingLampLightsTheCeilingDirectly)
             if (from_lamp.z > -1e-9 && aside < 0.3 + 1e-9) return std::nullopt; // the bowl
             return Rgb(0.0);
         });
-    tests::expect_picture(batches[2], known, 0.03, 1);
+    tests::expect_picture(batches[2], known, GetParam().bias(0.03), 1);
 }
 
 // All light in the first room has come through the slit, after a bounce behind it.

@@ -64,7 +64,7 @@ const std::vector<Stated> stated = {
      {-0.6, 0.0, -0.8},
      ref::unlimited_edges,
      {0.41284404, 0.79411765, 0.08801956},
-     0.04},
+     0.08},
 };
 
 void PrintTo(const Stated& s, std::ostream* out)
