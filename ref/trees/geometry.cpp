@@ -9,7 +9,7 @@
 namespace ref {
 
 Geometry::Geometry(const scenes::Scene& scene, Builder builder)
-    : scene_(&scene), tree_(build(primitive_bounds(scene), builder)), diagonal_(0)
+    : scene_(&scene), tree_(build(primitive_bounds(scene), builder))
 {
     if (tree_.nodes.empty()) return;
     const Aabb& box = tree_.bounds[0];

@@ -24,7 +24,7 @@ public:
 private:
     const scenes::Scene* scene_;
     Tree tree_;
-    double diagonal_;
+    double diagonal_ = 0;
 };
 
 /// The hit of smallest t; of several at the same t, that of the lowest primitive number. Adds to `work`,

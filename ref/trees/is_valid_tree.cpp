@@ -76,15 +76,20 @@ void check_links(const Tree& tree, Violations& violations)
     }
 }
 
-/// The nodes in an order in which children come after their parents. Some are missing if the links have
-/// a cycle, which check_links alone does not see.
-std::vector<std::uint32_t> from_root(const Tree& tree)
+/// The nodes below the root in an order in which children come before their parents. Some are missing if
+/// the links have a cycle, which check_links alone does not see.
+std::vector<std::uint32_t> bottom_up(const Tree& tree)
 {
     std::vector<std::uint32_t> order;
     if (!tree.nodes.empty()) order.push_back(0);
-    for (std::size_t i = 0; i < order.size(); ++i)
-        if (!tree.is_leaf(order[i]))
-            for (const std::uint32_t child : tree.nodes[order[i]].children) order.push_back(child);
+    std::size_t next = 0;
+    while (next < order.size()) {
+        const std::uint32_t node = order[next++];
+        if (tree.is_leaf(node)) continue;
+        const auto& children = tree.nodes[node].children;
+        order.insert(order.end(), children.begin(), children.end());
+    }
+    std::reverse(order.begin(), order.end());
     return order;
 }
 
@@ -92,16 +97,15 @@ std::vector<std::uint32_t> from_root(const Tree& tree)
 std::vector<std::array<std::uint32_t, 2>> leaf_ranges(const Tree& tree, Violations& violations)
 {
     std::vector<std::array<std::uint32_t, 2>> ranges(tree.nodes.size());
-    const std::vector<std::uint32_t> order = from_root(tree);
-    for (auto node = order.rbegin(); node != order.rend(); ++node) {
-        if (tree.is_leaf(*node)) {
-            ranges[*node] = {tree.leaf(*node), tree.leaf(*node)};
+    for (const std::uint32_t node : bottom_up(tree)) {
+        if (tree.is_leaf(node)) {
+            ranges[node] = {tree.leaf(node), tree.leaf(node)};
             continue;
         }
-        const auto [left, right] = tree.nodes[*node].children;
+        const auto [left, right] = tree.nodes[node].children;
         if (ranges[left][1] + 1 != ranges[right][0])
-            violations.add("the leaves below node ", *node, " are not one range");
-        ranges[*node] = {ranges[left][0], ranges[right][1]};
+            violations.add("the leaves below node ", node, " are not one range");
+        ranges[node] = {ranges[left][0], ranges[right][1]};
     }
     return ranges;
 }
@@ -133,7 +137,7 @@ std::vector<std::string> is_valid_tree(const Tree& tree, std::span<const Aabb> p
     if (!violations.none()) return violations.take();
     check_links(tree, violations);
     if (!violations.none()) return violations.take();
-    if (const std::size_t reached = from_root(tree).size(); reached != tree.nodes.size())
+    if (const std::size_t reached = bottom_up(tree).size(); reached != tree.nodes.size())
         violations.add(tree.nodes.size() - reached, " nodes cannot be reached from the root");
     if (!violations.none()) return violations.take();
     leaf_ranges(tree, violations);

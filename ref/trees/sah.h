@@ -17,6 +17,6 @@ constexpr double C_isect = 1;
 /// in the order of centroids), until leaves have one primitive each, or at most `max_leaf_size` where
 /// testing all of them is expected to cost no more than the best split. The boxes must be finite and not
 /// empty.
-Tree build_sah(std::span<const Aabb> primitive_bounds, std::size_t max_leaf_size = 1);
+Tree build_sah(std::span<const Aabb> boxes, std::size_t max_leaf_size = 1);
 
 } // namespace ref
