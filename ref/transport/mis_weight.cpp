@@ -88,8 +88,7 @@ double mis_weight(const World& world, const PathOptions& options, const Path& x,
     long double sum = 0.0L;
     for (const long double p_i : p) {
         const long double ratio = p_i / p[s];
-        sum += options.heuristic == Heuristic::balance ? ratio
-                                                       : ratio * ratio; // [Veach 1997, sec. 9.2]
+        sum += options.heuristic == Heuristic::balance ? ratio : ratio * ratio; // [Veach 1997, sec. 9.2]
     }
     return static_cast<double>(1.0L / sum);
 }

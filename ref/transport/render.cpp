@@ -29,14 +29,17 @@ std::vector<Tile> tiles_of(int width, int height)
 }
 
 /// One batch in the making. Sums are formed in an order of their own, not in that of the threads: a
-/// pixel's own samples one after the other, then what falls on it from elsewhere, tile by tile.
+/// pixel's own samples one after the other; apart from them what light walks splat on it, tile by tile;
+/// then both together. Splats of a tile that is done before its turn wait, the others are summed at
+/// once: a picture's worth of them would not fit in memory.
 class Batch {
 public:
     Batch(const World& world, Integrator integrator, const RenderOptions& options, std::uint64_t number,
           StrategyLayers* layers)
         : world_(world), integrator_(integrator), options_(options), number_(number),
-          tiles_(tiles_of(world.camera.width(), world.camera.height())), splats_(tiles_.size()),
-          sum_(world.camera.width(), world.camera.height())
+          tiles_(tiles_of(world.camera.width(), world.camera.height())),
+          sum_(world.camera.width(), world.camera.height()), waiting_(tiles_.size()),
+          splat_sum_(world.camera.width(), world.camera.height())
     {
         if (layers != nullptr) layers_ = layers->empty_copy();
     }
@@ -51,9 +54,9 @@ public:
         }
         if (error_) std::rethrow_exception(error_);
         if (stopped_) return false;
-        for (const auto& splats : splats_)
-            for (const Contribution& splat : splats) add(splat);
-        for (auto& pixel : sum_.pixels) pixel /= options_.batch_size;
+        for (std::size_t i = 0; i < sum_.pixels.size(); ++i)
+            sum_.pixels[i] =
+                (sum_.pixels[i] + splat_sum_.pixels[i]) / static_cast<double>(options_.batch_size);
         return true;
     }
 
@@ -67,9 +70,14 @@ private:
         try {
             for (std::size_t tile = next_tile_++; tile < tiles_.size() && !stopped_;
                  tile = next_tile_++) {
-                if (monitor.stop && monitor.stop()) stopped_ = true;
-                sample_tile(tile);
+                if (monitor.stop && monitor.stop()) {
+                    stopped_ = true;
+                    break;
+                }
+                std::vector<Contribution> splats = sample_tile(tiles_[tile]);
                 const std::scoped_lock lock(mutex_);
+                waiting_[tile] = std::move(splats);
+                add_splats_in_order();
                 ++tiles_done_;
                 if (monitor.progress)
                     monitor.progress(static_cast<double>(number_) +
@@ -83,10 +91,12 @@ private:
         }
     }
 
-    void sample_tile(std::size_t number)
+    /// Adds what the tile's samples show on their own pixels, and returns what they splat on any pixel:
+    /// the light image, t = 1. No other thread touches the tile's pixels, nor its layers of t > 1 there.
+    std::vector<Contribution> sample_tile(const Tile& tile)
     {
-        const Tile& tile = tiles_[number];
         std::vector<Contribution> contributions;
+        std::vector<Contribution> splats;
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x) {
                 const auto pixel = static_cast<std::uint32_t>(y * world_.camera.width() + x);
@@ -96,19 +106,28 @@ private:
                     integrator_(world_, options_.path, {options_.path.seed, pixel, sample},
                                 contributions);
                     for (const Contribution& c : contributions) {
-                        if (c.pixel == pixel)
-                            add(c);
+                        if (c.t == 1)
+                            splats.push_back(c);
                         else
-                            splats_[number].push_back(c);
+                            add(c, sum_);
                     }
                 }
             }
+        return splats;
     }
 
-    /// Two threads must not add to the same pixel at the same time.
-    void add(const Contribution& c)
+    /// Adds the splats of all tiles up to the first that is not done. To be called under the lock.
+    void add_splats_in_order()
     {
-        sum_.pixels[c.pixel] += c.weight * c.value;
+        for (; next_splats_ < tiles_.size() && waiting_[next_splats_]; ++next_splats_) {
+            for (const Contribution& splat : *waiting_[next_splats_]) add(splat, splat_sum_);
+            std::vector<Contribution>().swap(*waiting_[next_splats_]); // gives the memory back
+        }
+    }
+
+    void add(const Contribution& c, golden::Image& sum)
+    {
+        sum.pixels[c.pixel] += c.weight * c.value;
         if (layers_) layers_->add(c);
     }
 
@@ -117,14 +136,16 @@ private:
     const RenderOptions& options_;
     std::uint64_t number_;
     std::vector<Tile> tiles_;
-    std::vector<std::vector<Contribution>> splats_; // per tile: what lands outside its own pixel
-    golden::Image sum_;
+    golden::Image sum_; // in the end, the mean
     std::optional<StrategyLayers> layers_;
 
     std::atomic<std::size_t> next_tile_ = 0;
     std::atomic<bool> stopped_ = false;
     std::mutex mutex_; // guards what follows
     std::size_t tiles_done_ = 0;
+    std::vector<std::optional<std::vector<Contribution>>> waiting_; // per tile that is done: its splats
+    std::size_t next_splats_ = 0;                                   // of the first tile that is not
+    golden::Image splat_sum_;
     std::exception_ptr error_;
 };
 

@@ -21,7 +21,7 @@ struct Vertex {
     SurfacePoint point;     // where; of `eye` and `source` the position alone, of `infinity` nothing
     Vec3 towards;           // of `infinity`: the unit direction from the scene to it
     const Emitter* emitter; // that the vertex is a point of, or none
-    Rgb alpha;              // weight of the walk that made it [Veach 1997, sec. 10.2]: f |cos| / p so far
+    Rgb alpha; // weight of the walk that made it [Veach 1997, sec. 10.2]: f |cos| / p so far
 };
 
 inline Vertex eye_vertex(const World& world)

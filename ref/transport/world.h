@@ -57,7 +57,7 @@ struct PathOptions {
 /// What one path adds to one pixel. The path has s vertices from the light and t from the eye
 /// [Veach 1997, sec. 10.2], hence s + t - 1 edges.
 struct Contribution {
-    std::uint32_t pixel;
+    std::uint32_t pixel; // the sample's own, unless t = 1: the light image falls anywhere
     int s, t;
     Rgb value;     // radiance (W m^-2 sr^-1), unweighted: as if its strategy were the only one
     double weight; // share that this strategy has in the path
