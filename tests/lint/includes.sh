@@ -11,6 +11,7 @@ tracked '*.h' '*.cpp' '*.cu' '*.cuh' | xargs -0 -r awk '
         may["ref"] = " ref scenes golden "
         may["cuda"] = " cuda scenes golden "
         may["cli"] = " cli ref cuda scenes golden "
+        may["docs"] = " docs cli ref cuda scenes golden "
         may["tests"] = " tests cli ref cuda scenes golden "
     }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
