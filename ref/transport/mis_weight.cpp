@@ -85,6 +85,7 @@ std::vector<long double> strategy_densities(const World& world, const PathOption
 double mis_weight(const World& world, const PathOptions& options, const Path& x, std::size_t s)
 {
     const std::vector<long double> p = strategy_densities(world, options, x);
+    if (p[s] == 0.0L) return 0.0;
     long double sum = 0.0L;
     for (const long double p_i : p) {
         const long double ratio = p_i / p[s];

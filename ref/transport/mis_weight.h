@@ -34,7 +34,8 @@ bool is_possible(const World& world, const Path& x, std::size_t s);
 std::vector<long double> strategy_densities(const World& world, const PathOptions& options,
                                             const Path& x);
 
-/// The share of strategy s in the path, 0 ... 1; over all strategies they add up to 1.
+/// The share of strategy s in the path, 0 ... 1: exactly 0 where it is not possible. Over all strategies
+/// they add up to 1.
 double mis_weight(const World& world, const PathOptions& options, const Path& x, std::size_t s);
 
 } // namespace ref
