@@ -9,8 +9,6 @@
 #include "golden/png.h"
 #include "golden/strategy_sheet.h"
 #include "golden/write_image.h"
-#include "scenes/frame.h"
-#include "scenes/read_scene.h"
 
 #include <nlohmann/json.hpp>
 
@@ -29,19 +27,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start)
 {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// The scene as it will be rendered, with a camera for certain.
-scenes::Scene load_scene(const RenderCommand& options)
-{
-    scenes::Scene scene = scenes::read_scene(options.scene);
-    if (!options.quiet)
-        for (const std::string& notice : scene.notices)
-            std::cerr << options.scene << ": " << notice << '\n';
-    if (options.frame) scenes::frame_camera(scene);
-    if (!scene.camera)
-        throw std::invalid_argument(options.scene + ": <COLLADA>: the scene has no camera");
-    return scene;
 }
 
 void write_outputs(const RenderCommand& options, const golden::Film& film, golden::Metadata metadata)
@@ -100,7 +85,7 @@ ExitStatus render(const RenderCommand& options)
 {
     const Size size = parse_size(options.size);
     check(options);
-    const scenes::Scene scene = load_scene(options);
+    const scenes::Scene scene = load_scene(options.scene, options.frame, options.quiet);
     const golden::Metadata metadata = describe(options, scene);
     golden::Film film = starting_film(options, metadata);
     const std::uint64_t batches_before = film.batches();

@@ -4,7 +4,6 @@
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 
-#include <charconv>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -17,12 +16,6 @@ const std::map<std::string, ref::Integrator> integrators = {
     {"path", ref::trace_path}, {"bdpt", ref::trace_bidirectionally}, {"light", ref::trace_light}};
 const std::map<std::string, ref::Heuristic> heuristics = {{"balance", ref::Heuristic::balance},
                                                           {"power", ref::Heuristic::power}};
-
-void expect_ending(const std::string& path, const std::string& option, const std::string& ending)
-{
-    if (!path.empty() && std::filesystem::path(path).extension() != ending)
-        throw std::invalid_argument(option + " " + path + ": its name must end in " + ending);
-}
 
 } // namespace
 
@@ -72,24 +65,6 @@ void add_render_options(CLI::App& command, RenderCommand& options)
     command.add_flag("--unweighted", options.unweighted, "Strategies as if each were the only one");
     command.add_flag("--json", options.json, "Print one JSON object with time, samples and mean");
     command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
-}
-
-Size parse_size(const std::string& text)
-{
-    Size size{};
-    const char* const end = text.data() + text.size();
-    const auto [x, width_error] = std::from_chars(text.data(), end, size.width);
-    if (width_error == std::errc() && x != end && *x == 'x') {
-        const auto [rest, height_error] = std::from_chars(x + 1, end, size.height);
-        constexpr int largest = 1 << 16;
-        if (height_error == std::errc() && rest == end && size.width > 0 && size.height > 0 &&
-            size.width <= largest && size.height <= largest &&
-            size.width * 1ll * size.height <= 1ll << 28)
-            return size;
-    }
-    throw std::invalid_argument("--size " + text +
-                                ": expected WxH, such as 240x160, each from 1 to 65536 " +
-                                "and at most 2^28 pixels together");
 }
 
 void check(const RenderCommand& options)

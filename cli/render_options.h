@@ -2,6 +2,7 @@
 
 // What `plumbline render` can be asked for.
 
+#include "cli/scene_input.h"
 #include "golden/image.h"
 #include "ref/transport/render.h"
 #include "scenes/scene.h"
@@ -14,10 +15,6 @@
 #include <vector>
 
 namespace cli {
-
-struct Size {
-    int width, height;
-};
 
 struct RenderCommand {
     std::string scene;
@@ -44,9 +41,6 @@ struct RenderCommand {
 
 /// Adds the options to `command`, which sets `options` when it is parsed.
 void add_render_options(CLI::App& command, RenderCommand& options);
-
-/// The size that was asked for. Throws std::invalid_argument.
-Size parse_size(const std::string& text);
 
 /// Throws std::invalid_argument or golden::ImageError for options that cannot be meant, and for places
 /// that cannot be written to, before any work is done.

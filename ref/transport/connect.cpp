@@ -4,6 +4,8 @@
 #include "ref/transport/mis_weight.h"
 #include "ref/transport/visibility.h"
 
+#include <ranges>
+
 namespace ref {
 
 namespace {
@@ -13,7 +15,7 @@ Path join(std::span<const Vertex> y, std::span<const Vertex> z)
 {
     Path x;
     for (const Vertex& vertex : y) x.push_back(&vertex);
-    for (auto vertex = z.rbegin(); vertex != z.rend(); ++vertex) x.push_back(&*vertex);
+    for (const Vertex& vertex : z | std::views::reverse) x.push_back(&vertex);
     return x;
 }
 

@@ -34,8 +34,10 @@ struct World {
 inline Ray camera_ray(const World& world, const SampleId& id)
 {
     const auto width = static_cast<std::uint32_t>(world.camera.width());
+    const std::uint32_t column = id.pixel % width;
+    const std::uint32_t row = id.pixel / width;
     const Uniforms u = uniforms(id, Event::camera);
-    return world.camera.ray({id.pixel % width + u[0], id.pixel / width + u[1]});
+    return world.camera.ray({column + u[0], row + u[1]});
 }
 
 inline constexpr int unlimited_edges = std::numeric_limits<int>::max();

@@ -1,0 +1,122 @@
+#include "cli/bvh_measure.h"
+
+#include "cli/resources.h"
+#include "ref/transport/camera.h"
+#include "ref/transport/random.h"
+#include "ref/transport/sampling.h"
+#include "ref/trees/geometry.h"
+#include "ref/trees/quality.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace cli {
+
+namespace {
+
+/// CPU time of `work` in seconds. Everything here runs on one thread, so on an idle machine this is the
+/// time that passes; on a busy one it is what the work itself costs.
+template <typename Function>
+double cpu_seconds_of(Function work)
+{
+    const double start = cpu_seconds();
+    work();
+    return cpu_seconds() - start;
+}
+
+/// What rays of one kind cost, on average.
+struct RayCost {
+    double mrays_per_s = 0;
+    double nodes_per_ray = 0;
+    double primitives_per_ray = 0;
+};
+
+RayCost measure(const ref::Geometry& geometry, const std::vector<ref::Ray>& rays)
+{
+    if (rays.empty()) return {};
+    ref::Work work;
+    double seconds = 0;
+    std::uint64_t traced = 0;
+    std::uint64_t hits = 0;
+    while (seconds < 0.3) { // the clock ticks in microseconds: 0.3 s make its error vanish
+        work = {};
+        seconds += cpu_seconds_of([&] {
+            for (const ref::Ray& ray : rays) hits += intersect(geometry, ray, &work) ? 1 : 0;
+        });
+        traced += rays.size();
+    }
+    if (hits > traced)
+        throw std::logic_error("more hits than rays"); // keeps the loop from being dropped
+    const auto count = static_cast<double>(rays.size());
+    return {static_cast<double>(traced) / seconds * 1e-6, static_cast<double>(work.nodes) / count,
+            static_cast<double>(work.primitives) / count};
+}
+
+struct Rays {
+    std::vector<ref::Ray> camera;
+    std::vector<ref::Ray> diffuse;
+};
+
+/// A ray through the middle of every pixel, and from where it hits one in a cosine-distributed
+/// direction.
+Rays make_rays(const ref::Geometry& geometry, const Size& size)
+{
+    Rays rays;
+    const ref::Camera camera(*geometry.scene().camera, size.width, size.height);
+    std::uint32_t pixel = 0;
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x, ++pixel) {
+            const ref::Ray ray = camera.ray({x + 0.5, y + 0.5});
+            rays.camera.push_back(ray);
+            const auto hit = intersect(geometry, ray);
+            if (!hit) continue;
+            const ref::SurfacePoint point = surface_point(geometry, ray, *hit);
+            const bool front = glm::dot(ray.direction, point.normal) < 0;
+            const ref::Uniforms u = ref::uniforms({0, pixel, 0}, ref::Event::eye_bounce);
+            const ref::Vec3 local = ref::sample_cosine_hemisphere(u[0], u[1]);
+            const ref::Vec3 direction = ref::Frame(front ? point.normal : -point.normal).to_world(local);
+            rays.diffuse.push_back({leave_surface(point, direction), direction});
+        }
+    return rays;
+}
+
+double median_build_ms(const std::vector<ref::Aabb>& boxes, ref::Builder builder, int repeats)
+{
+    std::vector<double> times;
+    for (int i = 0; i < repeats; ++i)
+        times.push_back(1e3 * cpu_seconds_of([&] { ref::build(boxes, builder); }));
+    std::nth_element(times.begin(), times.begin() + repeats / 2, times.end());
+    return times[static_cast<std::size_t>(repeats) / 2];
+}
+
+} // namespace
+
+nlohmann::json measure_builder(const scenes::Scene& scene, const NamedBuilder& named, const Size& size,
+                               int repeats)
+{
+    const std::vector<ref::Aabb> boxes = ref::primitive_bounds(scene);
+    const ref::Geometry geometry(scene, named.builder);
+    const ref::Quality quality = ref::quality(geometry.tree());
+    const Rays rays = make_rays(geometry, size);
+    const RayCost camera = measure(geometry, rays.camera);
+    const RayCost diffuse = measure(geometry, rays.diffuse);
+    return {{"name", named.name},
+            {"build_ms", median_build_ms(boxes, named.builder, repeats)},
+            {"sah_cost", quality.sah_cost},
+            {"depth", quality.depth},
+            {"mean_leaf_depth", quality.mean_leaf_depth},
+            {"overlap", quality.overlap},
+            {"nodes", geometry.tree().nodes.size()},
+            {"camera_mrays_per_s", camera.mrays_per_s},
+            {"camera_nodes_per_ray", camera.nodes_per_ray},
+            {"camera_primitives_per_ray", camera.primitives_per_ray},
+            {"diffuse_mrays_per_s", diffuse.mrays_per_s},
+            {"diffuse_nodes_per_ray", diffuse.nodes_per_ray},
+            {"diffuse_primitives_per_ray", diffuse.primitives_per_ray}};
+}
+
+} // namespace cli

@@ -1,0 +1,157 @@
+// Where does it pay to trace from both ends? The error of path tracing, bidirectional path tracing and
+// light tracing after the same CPU time, on each scene; and where the time of a bidirectional sample
+// goes.
+//
+// usage: figure_equal_time SCENE.dae...
+// Writes the tables of docs/bdpt.md to stdout. 96 x 64 pixels, at most 6 edges, one thread.
+
+#include "golden/image.h"
+#include "ref/transport/bdpt.h"
+#include "ref/transport/connect.h"
+#include "ref/transport/path_tracer.h"
+#include "ref/transport/render.h"
+#include "ref/transport/subpath.h"
+#include "scenes/read_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+constexpr int width = 96;
+constexpr int height = 64;
+constexpr int max_edges = 6;
+constexpr double seconds_each = 4.0;       // CPU time of every rendering that is judged
+constexpr double seconds_reference = 60.0; // of the bidirectional one that they are judged against
+
+double cpu_now()
+{
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+struct Timed {
+    golden::Image image;
+    double samples_per_second;
+};
+
+/// As many batches as fit into the time.
+Timed render_for(const ref::World& world, ref::Integrator integrator, std::uint64_t seed, double seconds)
+{
+    golden::Film film(width, height);
+    const double start = cpu_now();
+    ref::render(world, integrator, {{.seed = seed, .max_edges = max_edges}, 1U << 20, 4, 1}, film,
+                {{}, [&] { return cpu_now() - start > seconds; }});
+    return {film.mean(), static_cast<double>(film.batches() * 4) * width * height / (cpu_now() - start)};
+}
+
+/// Mean over pixels and channels of (image - reference)^2 / (reference^2 + 1e-4 m^2), m the mean of the
+/// reference: black pixels must not divide by zero.
+double relative_mean_square_error(const golden::Image& image, const golden::Image& reference)
+{
+    golden::Rgb mean(0.0);
+    for (const auto& pixel : reference.pixels)
+        mean += pixel / static_cast<double>(reference.pixels.size());
+    const double m = (mean.x + mean.y + mean.z) / 3.0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const golden::Rgb d = image.pixels[i] - reference.pixels[i];
+        const golden::Rgb r = reference.pixels[i];
+        sum += (d.x * d.x / (r.x * r.x + 1e-4 * m * m) + d.y * d.y / (r.y * r.y + 1e-4 * m * m) +
+                d.z * d.z / (r.z * r.z + 1e-4 * m * m)) /
+               3.0;
+    }
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+/// Shares of the time of bidirectional samples: walks, then the four families.
+std::array<double, 5> shares_of_time(const ref::World& world)
+{
+    using Clock = std::chrono::steady_clock;
+    std::array<double, 5> spent{};
+    const ref::PathOptions options{.max_edges = max_edges};
+    const auto timed = [&](std::size_t what, auto&& work) {
+        const auto start = Clock::now();
+        work();
+        spent[what] += std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    for (std::uint32_t pixel = 0; pixel < width * height; ++pixel)
+        for (std::uint32_t sample = 0; sample < 8; ++sample) {
+            const ref::SampleId id{0, pixel, sample};
+            std::vector<ref::Vertex> z;
+            std::vector<ref::Vertex> y;
+            timed(0, [&] {
+                z = eye_subpath(world, options, id, max_edges + 1);
+                y = light_subpath(world, options, id, max_edges);
+            });
+            const auto eye_walk = [&](std::size_t t) {
+                return std::span<const ref::Vertex>(z.data(), t);
+            };
+            const auto light_walk = [&](std::size_t s) {
+                return std::span<const ref::Vertex>(y.data(), s);
+            };
+            timed(1, [&] {
+                for (std::size_t t = 2; t <= z.size(); ++t)
+                    emission_hit(world, options, id, eye_walk(t));
+            });
+            timed(2, [&] {
+                for (std::size_t t = 2; t <= std::min<std::size_t>(z.size(), max_edges); ++t)
+                    next_event(world, options, id, eye_walk(t));
+            });
+            timed(3, [&] {
+                for (std::size_t s = 1; s <= y.size(); ++s)
+                    light_image(world, options, light_walk(s), z[0]);
+            });
+            timed(4, [&] {
+                for (std::size_t t = 2; t <= z.size(); ++t)
+                    for (std::size_t s = 2; s <= y.size() && s + t - 1 <= max_edges; ++s)
+                        inner_connection(world, options, id, light_walk(s), eye_walk(t));
+            });
+        }
+    double total = 0.0;
+    for (const double s : spent) total += s;
+    for (double& s : spent) s /= total;
+    return spent;
+}
+
+void judge(const char* file)
+{
+    const scenes::Scene scene = scenes::read_scene(file);
+    const ref::World world(scene, width, height);
+    const Timed reference = render_for(world, ref::trace_bidirectionally, 1, seconds_reference);
+    std::printf("| %s |", scene.name.c_str());
+    for (const ref::Integrator integrator :
+         {ref::trace_path, ref::trace_bidirectionally, ref::trace_light}) {
+        const Timed timed = render_for(world, integrator, 2, seconds_each);
+        std::printf(" %.0fk | %.2g |", timed.samples_per_second / 1000.0,
+                    relative_mean_square_error(timed.image, reference.image));
+    }
+    for (const double share : shares_of_time(world)) std::printf(" %.0f%% |", 100.0 * share);
+    std::printf("\n");
+    std::fflush(stdout);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    try {
+        if (argc < 2) throw std::invalid_argument("usage: figure_equal_time SCENE.dae...");
+        std::printf("| scene | path: samples/s | relMSE | bdpt: samples/s | relMSE | light: samples/s | "
+                    "relMSE | "
+                    "walks | emission hit | next event | light image | inner |\n"
+                    "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+        for (int i = 1; i < argc; ++i) judge(argv[i]);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "figure_equal_time: %s\n", error.what());
+        return 2;
+    }
+}
