@@ -19,8 +19,6 @@ void catch_interrupts()
     action.sa_flags = static_cast<int>(SA_RESETHAND);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
-    // A file that grows beyond a limit is an error of the write, to be told as one.
-    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupt_requested()

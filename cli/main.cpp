@@ -2,7 +2,9 @@
 
 #include "cli/bvh.h"
 #include "cli/command.h"
+#include "cuda/device.h"
 
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -20,9 +22,12 @@ int complain(std::string_view message)
 
 int main(int argc, char** argv)
 {
+    // A file that outgrows a limit is an error of the write, to be told as one.
+    std::signal(SIGXFSZ, SIG_IGN);
     CLI::App program("Plumbline: a reference for tree builders and bidirectional path tracers",
                      "plumbline");
-    program.set_version_flag("--version", PLUMBLINE_VERSION);
+    program.set_version_flag(
+        "--version", [] { return "plumbline " PLUMBLINE_VERSION "\nGPU: " + gpu::describe_device(); });
     program.require_subcommand(1);
     program.footer("Exit status: 0 fine, 1 a check says no, 2 bad input or usage, 130 interrupted.");
     cli::Work work;
