@@ -4,6 +4,8 @@
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -16,6 +18,16 @@ const std::map<std::string, ref::Integrator> integrators = {
     {"path", ref::trace_path}, {"bdpt", ref::trace_bidirectionally}, {"light", ref::trace_light}};
 const std::map<std::string, ref::Heuristic> heuristics = {{"balance", ref::Heuristic::balance},
                                                           {"power", ref::Heuristic::power}};
+
+/// CLI11 takes "-1" for 2^64 - 1, and what is larger for that too.
+std::string expect_seed(const std::string& text)
+{
+    std::uint64_t seed = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    return error == std::errc() && rest == text.data() + text.size()
+               ? ""
+               : "expected a whole number from 0 to 2^64 - 1, not " + text;
+}
 
 } // namespace
 
@@ -47,7 +59,9 @@ void add_render_options(CLI::App& command, RenderCommand& options)
                     "Longest path, the camera's edge counted [no limit]")
         ->check(CLI::Range(1, 1 << 20));
     command.add_flag("--no-roulette", options.no_roulette, "Never end a path by chance");
-    command.add_option("--seed", options.seed, "Another seed, another noise")->capture_default_str();
+    command.add_option("--seed", options.seed, "Another seed, another noise")
+        ->check(expect_seed)
+        ->capture_default_str();
     command
         .add_option("--exposure", options.exposure, "For .png: stops that the picture is brightened by")
         ->check(CLI::Range(-64.0, 64.0))
@@ -75,6 +89,8 @@ void check(const RenderCommand& options)
                                     " samples of a batch (--batch)");
     if (options.no_roulette && options.max_edges == ref::unlimited_edges)
         throw std::invalid_argument("--no-roulette needs --max-edges: paths would never end");
+    if (std::isnan(options.exposure) || std::isnan(options.watch))
+        throw std::invalid_argument("--exposure and --watch expect numbers, and got a NaN");
     const bool layers = !options.strategies.empty() || !options.strategies_picture.empty();
     if (layers && options.max_edges > ref::most_edges_of_layers)
         throw std::invalid_argument("--strategies needs --max-edges of at most " +
