@@ -1,0 +1,125 @@
+// Ctrl-C and SIGTERM keep what is done, and going on from there gives the picture that would have been.
+
+#include "golden/exr.h"
+#include "tests/cli/run_program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using namespace cli_test;
+
+class Interrupt : public testing::TestWithParam<int> {
+protected:
+    TemporaryFolder folder;
+    std::string out = (folder / "out.exr").string();
+    std::string whole = (folder / "whole.exr").string();
+
+    static Arguments render(const std::string& output, const std::string& samples)
+    {
+        return {"render", scene_file("cornell_glass"), "-o", output, "--size", "32x24", "-s", samples};
+    }
+    /// Sends `signal` to a render that would take days, as soon as it has kept something.
+    Outcome interrupted(int signal, const Arguments& more = {})
+    {
+        Process process(render(out, "2147483648") + Arguments{"--watch", "0.001"} + more);
+        EXPECT_TRUE(eventually([&] { return std::filesystem::exists(out); }));
+        process.send(signal);
+        return process.finish();
+    }
+    [[nodiscard]] std::uint64_t samples_held() const
+    {
+        return std::stoull(golden::read_exr(out).metadata.at("samples"));
+    }
+    void expect_as_if_never_interrupted(std::uint64_t samples)
+    {
+        const std::string s = std::to_string(samples);
+        const Outcome resumed = run(render(out, s) + Arguments{"--resume"});
+        ASSERT_EQ(resumed.status, 0) << resumed.err;
+        ASSERT_EQ(run(render(whole, s)).status, 0);
+        EXPECT_TRUE(read_bytes(out) == read_bytes(whole)) << samples << " samples";
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, testing::Values(SIGINT, SIGTERM), [](const auto& signal) {
+    return std::string(signal.param == SIGINT ? "SIGINT" : "SIGTERM");
+});
+
+TEST_P(Interrupt, KeepsWholeBatchesAndSaysHowMany)
+{
+    const Outcome outcome = interrupted(GetParam());
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_EQ(outcome.out, "");
+    const golden::ExrPicture picture = golden::read_exr(out);
+    const std::uint64_t held = samples_held();
+    EXPECT_GT(held, 0u);
+    EXPECT_EQ(held % 4, 0u);
+    ASSERT_TRUE(picture.film);
+    EXPECT_EQ(picture.film->batches() * 4, held);
+    EXPECT_EQ(picture.metadata.at("interrupted"), "before 2147483648 samples");
+    EXPECT_EQ(outcome.err, "plumbline: interrupted: kept " + std::to_string(held) +
+                               " of 2147483648 samples per pixel\n");
+    EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST_P(Interrupt, ResumedGivesThePictureOfAnUninterruptedRender)
+{
+    ASSERT_EQ(interrupted(GetParam()).status, 130);
+    expect_as_if_never_interrupted(samples_held() + 8);
+    // And once more, with other threads, from a picture that is complete.
+    expect_as_if_never_interrupted(samples_held() + 12);
+}
+
+TEST_P(Interrupt, AResumedRenderCanBeInterruptedAgain)
+{
+    ASSERT_EQ(interrupted(GetParam()).status, 130);
+    const std::uint64_t first = samples_held();
+    Process again(render(out, "2147483648") + Arguments{"--resume", "--watch", "0.001", "-t", "2"});
+    EXPECT_TRUE(eventually([&] { return samples_held() > first; }));
+    again.send(GetParam());
+    EXPECT_EQ(again.finish().status, 130);
+    EXPECT_GT(samples_held(), first);
+    expect_as_if_never_interrupted(samples_held());
+}
+
+TEST_P(Interrupt, LeavesNoFileBeforeTheFirstBatchIsDone)
+{
+    // A batch of some minutes, in tiles of some hundredths of a second.
+    Process process({"render", scene_file("point_over_plane"), "-o", out, "--size", "1024x1024",
+                     "--batch", "256", "-s", "256"});
+    ASSERT_TRUE(eventually([&] { return process.catches(GetParam()); }));
+    process.send(GetParam());
+    const Outcome outcome = process.finish();
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_EQ(
+        outcome.err,
+        "plumbline: interrupted: nothing written, no batch was finished: 0 of 256 samples per pixel\n");
+    EXPECT_EQ(folder.entries(), 0u);
+}
+
+// A second signal means it: the end, without a picture, and by the signal, so that a shell's loop ends.
+TEST_P(Interrupt, TwiceEndsAtOnce)
+{
+    // A tile of 2^20 samples per pixel takes minutes, and the first signal waits for its end.
+    Process process({"render", scene_file("point_over_plane"), "-o", out, "--size", "16x16", "--batch",
+                     "1048576", "-s", "1048576", "-t", "1"});
+    ASSERT_TRUE(eventually([&] { return process.catches(GetParam()); }));
+    process.send(GetParam());
+    ASSERT_TRUE(eventually([&] { return !process.catches(GetParam()); }));
+    process.send(GetParam());
+    EXPECT_EQ(process.finish().status, -GetParam());
+    EXPECT_EQ(folder.entries(), 0u);
+}
+
+TEST_F(Interrupt, JsonSaysThatThePictureIsNotComplete)
+{
+    const Outcome outcome = interrupted(SIGINT, {"--json", "-q"});
+    EXPECT_EQ(outcome.status, 130);
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json.at("complete"), false);
+    EXPECT_EQ(json.at("samples_per_pixel"), samples_held());
+    EXPECT_EQ(json.at("samples"), samples_held() * 32 * 24);
+}
+
+} // namespace

@@ -1,0 +1,258 @@
+// `plumbline render` where all goes well: what it prints, what it writes, what changes the picture.
+
+#include "golden/exr.h"
+#include "golden/pfm.h"
+#include "tests/cli/run_program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+namespace {
+
+using namespace cli_test;
+
+const Arguments small = {"--size", "24x16", "-s", "8"};
+
+Arguments render(const std::string& scene, const std::filesystem::path& output,
+                 const Arguments& more = {}, const Arguments& size = small)
+{
+    return Arguments{"render", scene_file(scene), "-o", output.string()} + size + more;
+}
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+TEST(Help, FitsOneScreenAndShowsAnExample)
+{
+    for (const Arguments& arguments : {Arguments{"--help"}, {"render", "--help"}, {"render", "-h"}}) {
+        const Outcome help = run(arguments);
+        EXPECT_EQ(help.status, 0);
+        EXPECT_EQ(help.err, "");
+        const auto lines = lines_of(help.out);
+        EXPECT_GE(lines.size(), 8u);
+        EXPECT_LE(lines.size(), 40u);
+        for (const std::string& line : lines) EXPECT_LE(line.size(), 100u) << line;
+    }
+    EXPECT_NE(run({"render", "--help"}).out.find("Example: plumbline render scenes/"),
+              std::string::npos);
+}
+
+// What the help shows as an example must work as it stands there.
+TEST(Help, ItsExampleNamesASceneAndOptionsThatThereAre)
+{
+    const std::string help = run({"render", "--help"}).out;
+    std::istringstream example(help.substr(help.find("Example: plumbline ") + 19));
+    Arguments arguments;
+    for (std::string word; example >> word;) arguments.push_back(word);
+    const TemporaryFolder folder;
+    for (std::string& word : arguments) {
+        if (word.ends_with(".dae")) word = (std::filesystem::path(PLUMBLINE_SOURCE_DIR) / word).string();
+        if (word.ends_with(".exr") || word.ends_with(".png")) word = (folder / word).string();
+        if (std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; }))
+            word = "4";
+    }
+    const Outcome rendered = run(arguments + Arguments{"--size", "6x4"});
+    EXPECT_EQ(rendered.status, 0) << rendered.err;
+    EXPECT_EQ(folder.entries(), 2u);
+}
+
+TEST(Version, IsANumber)
+{
+    const Outcome version = run({"--version"});
+    EXPECT_EQ(version.status, 0);
+    EXPECT_EQ(std::count(version.out.begin(), version.out.end(), '.'), 2) << version.out;
+}
+
+TEST(Render, SaysNothingWhenItIsNotWatched)
+{
+    const TemporaryFolder folder;
+    const Outcome outcome = run(render("point_over_plane", folder / "a.exr"));
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(Render, WritesEveryFormatThatIsAskedForAtOnce)
+{
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        run(render("cornell_glass", folder / "a.exr",
+                   {"-o", (folder / "b.pfm").string(), "-o", (folder / "c.png").string(), "-o",
+                    (folder / "d.exr").string()}));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(folder.entries(), 4u);
+    const golden::ExrPicture exr = golden::read_exr(folder / "a.exr");
+    EXPECT_EQ(exr.mean.width, 24);
+    EXPECT_EQ(exr.mean.height, 16);
+    EXPECT_EQ(exr.mean, golden::read_pfm(folder / "b.pfm"));
+    EXPECT_EQ(read_bytes(folder / "c.png").substr(1, 3), "PNG");
+    EXPECT_EQ(read_bytes(folder / "a.exr"), read_bytes(folder / "d.exr"));
+}
+
+TEST(Render, TheExrSaysHowItWasMade)
+{
+    const TemporaryFolder folder;
+    ASSERT_EQ(
+        run(render("cornell_glass", folder / "a.exr", {"--seed", "17", "--max-edges", "5"})).status, 0);
+    const golden::ExrPicture exr = golden::read_exr(folder / "a.exr");
+    const auto said = [&](const char* name) {
+        const auto found = exr.metadata.find(name);
+        return found == exr.metadata.end() ? "(nothing)" : found->second;
+    };
+    EXPECT_EQ(said("scene"), "cornell_glass");
+    EXPECT_EQ(said("integrator"), "path");
+    EXPECT_EQ(said("samples"), "8");
+    EXPECT_EQ(said("batch_size"), "4");
+    EXPECT_EQ(said("seed"), "17");
+    EXPECT_EQ(said("max_edges"), "5");
+    EXPECT_EQ(said("interrupted"), "(nothing)");
+    EXPECT_EQ(run({"--version"}).out, said("version") + "\n");
+    ASSERT_TRUE(exr.standard_error);
+    ASSERT_TRUE(exr.film);
+    EXPECT_EQ(exr.film->batches(), 2u);
+}
+
+TEST(Render, JsonIsOneObjectWithWhatAScriptNeeds)
+{
+    const TemporaryFolder folder;
+    const Outcome outcome = run(render("point_over_plane", folder / "a.exr",
+                                       {"--json", "-t", "2", "-o", (folder / "b.png").string()}));
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.err, "");
+    ASSERT_EQ(lines_of(outcome.out).size(), 1u);
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json.at("scene"), "point_over_plane");
+    EXPECT_EQ(json.at("width"), 24);
+    EXPECT_EQ(json.at("height"), 16);
+    EXPECT_EQ(json.at("samples_per_pixel"), 8);
+    EXPECT_EQ(json.at("samples"), 24 * 16 * 8);
+    EXPECT_EQ(json.at("threads"), 2);
+    EXPECT_EQ(json.at("complete"), true);
+    EXPECT_EQ(json.at("outputs").size(), 2u);
+    EXPECT_GT(json.at("seconds").get<double>(), 0.0);
+    EXPECT_GT(json.at("cpu_seconds").get<double>(), 0.0);
+    EXPECT_TRUE(json.at("peak_rss_bytes").is_number_integer());
+    EXPECT_GT(json.at("peak_rss_bytes").get<double>(), 1e5);
+    ASSERT_EQ(json.at("mean_rgb").size(), 3u);
+
+    const golden::Image mean = golden::read_exr(folder / "a.exr").film->mean();
+    glm::dvec3 sum(0.0);
+    for (const auto& pixel : mean.pixels) sum += pixel;
+    for (int i = 0; i < 3; ++i) // summed in the same order: equal but for the digits printed
+        EXPECT_NEAR(json.at("mean_rgb")[static_cast<std::size_t>(i)].get<double>(), sum[i] / (24 * 16),
+                    1e-12);
+}
+
+TEST(Render, ThreadsChangeNoByteOfAFile)
+{
+    for (const char* integrator : {"path", "bdpt"}) {
+        const TemporaryFolder folder;
+        for (const char* threads : {"1", "2", "5"})
+            ASSERT_EQ(run(render("cornell_glass", folder / (std::string(threads) + ".exr"),
+                                 {"-t", threads, "--integrator", integrator, "--max-edges", "7"},
+                                 {"--size", "40x33", "-s", "8"}))
+                          .status,
+                      0);
+        const std::string one = read_bytes(folder / "1.exr");
+        EXPECT_GT(one.size(), 1000u);
+        EXPECT_TRUE(one == read_bytes(folder / "2.exr"));
+        EXPECT_TRUE(one == read_bytes(folder / "5.exr"));
+    }
+}
+
+TEST(Render, ASeedRepeatsItsNoiseAndAnotherMakesOther)
+{
+    const TemporaryFolder folder;
+    const auto picture = [&](const char* seed) {
+        EXPECT_EQ(run(render("cornell_glass", folder / "a.exr", {"--seed", seed})).status, 0);
+        return golden::read_exr(folder / "a.exr").mean;
+    };
+    const golden::Image one = picture("1");
+    EXPECT_EQ(one, picture("1"));
+    EXPECT_NE(one, picture("2"));
+    EXPECT_NE(one, picture("4294967297")); // 2^32 + 1: all 64 bits of a seed count
+    EXPECT_NE(picture("18446744073709551615"), one);
+}
+
+TEST(Render, FrameMovesTheCamera)
+{
+    const char* folder_of_others = std::getenv("PLUMBLINE_SHARED");
+    const auto course_scene =
+        (folder_of_others != nullptr
+             ? std::filesystem::path(folder_of_others)
+             : std::filesystem::path(PLUMBLINE_SOURCE_DIR).parent_path() / "shared") /
+        "scenes" / "CBspheres_lambertian.dae";
+    std::vector<std::string> files = {scene_file("cornell_diffuse")};
+    if (std::filesystem::exists(course_scene)) files.push_back(course_scene.string());
+    for (const std::string& file : files) {
+        const TemporaryFolder folder;
+        const std::string out = (folder / "a.exr").string();
+        const Arguments plain = Arguments{"render", file, "-o", out, "-q"} + small;
+        ASSERT_EQ(run(plain).status, 0);
+        const golden::Image as_is = golden::read_exr(out).mean;
+        ASSERT_EQ(run(plain + Arguments{"--frame"}).status, 0);
+        EXPECT_NE(as_is, golden::read_exr(out).mean) << file;
+        EXPECT_EQ(golden::read_exr(out).metadata.at("camera"), "framed");
+    }
+}
+
+TEST(Render, ExposureBrightensThePngAlone)
+{
+    const TemporaryFolder folder;
+    const Arguments more = {"-o", (folder / "a.png").string()};
+    ASSERT_EQ(run(render("cornell_glass", folder / "a.exr", more)).status, 0);
+    const std::string exr = read_bytes(folder / "a.exr");
+    const std::string png = read_bytes(folder / "a.png");
+    ASSERT_EQ(
+        run(render("cornell_glass", folder / "a.exr", more + Arguments{"--exposure", "1.5"})).status, 0);
+    EXPECT_TRUE(exr == read_bytes(folder / "a.exr"));
+    EXPECT_FALSE(png == read_bytes(folder / "a.png"));
+}
+
+TEST(Render, MaxEdgesOneShowsOnlyWhatShines)
+{
+    const TemporaryFolder folder;
+    ASSERT_EQ(
+        run(render("point_over_plane", folder / "a.exr", {"--max-edges", "1", "--no-roulette"})).status,
+        0);
+    EXPECT_EQ(golden::read_exr(folder / "a.exr").mean, golden::Image(24, 16));
+}
+
+const Arguments endless = {"--size", "64x64", "-s", "2147483648", "-t", "1"};
+
+TEST(Progress, ShowsABarAndTheTimeLeftOnATerminal)
+{
+    const TemporaryFolder folder;
+    Process process(render("point_over_plane", folder / "a.exr", {}, endless), {.terminal = true});
+    EXPECT_TRUE(eventually([&] { return process.printed().find(" left") != std::string::npos; }));
+    const std::string shown = process.printed();
+    EXPECT_NE(shown.find('['), std::string::npos) << shown;
+    EXPECT_NE(shown.find('%'), std::string::npos) << shown;
+    process.send(SIGINT);
+    EXPECT_EQ(process.finish().status, 130);
+}
+
+TEST(Progress, IsNotShownWhenQuiet)
+{
+    const TemporaryFolder folder;
+    Process process(render("point_over_plane", folder / "a.exr", {"-q", "--watch", "0.1"}, endless),
+                    {.terminal = true});
+    // After several rounds of what would have been updates, twice in a row.
+    EXPECT_TRUE(eventually([&] { return std::filesystem::exists(folder / "a.exr"); }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    EXPECT_EQ(process.printed(), "");
+    process.send(SIGINT);
+    EXPECT_EQ(process.finish().status, 130);
+}
+
+} // namespace

@@ -1,0 +1,271 @@
+// Bad input and bad luck: one line that says what is wrong, exit status 2, and no file.
+
+#include "golden/exr.h"
+#include "tests/cli/run_program.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+
+namespace {
+
+using namespace cli_test;
+
+/// One line for a person, beginning with the program's name and holding `what`.
+void expect_complaint(const Outcome& outcome, const std::string& what)
+{
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err.rfind("plumbline: ", 0), 0u) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.err.find_first_of("\t\r\033"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(outcome.err.ends_with('\n'));
+    EXPECT_NE(outcome.err.find(what), std::string::npos) << outcome.err << "does not say: " << what;
+    EXPECT_LE(outcome.err.size(), 400u) << outcome.err;
+}
+
+struct Mistake {
+    const char* name;
+    Arguments arguments; // "SCENE" and "OUT" stand for a good scene and a good output
+    std::string complaint;
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out)
+{
+    *out << mistake.name;
+}
+
+const std::vector<Mistake> mistakes = {
+    {"NoSubcommand", {}, "subcommand"},
+    {"UnknownSubcommand", {"paint"}, "subcommand"},
+    {"UnknownOption", {"render", "SCENE", "-o", "OUT", "--brighter"}, "--brighter"},
+    {"NoScene", {"render", "-o", "OUT"}, "scene"},
+    {"TwoScenes", {"render", "SCENE", "-o", "OUT", "--seed", "1", "SCENE"}, ".dae"},
+    {"NoOutput", {"render", "SCENE"}, "--output"},
+    {"OutputWithoutName", {"render", "SCENE", "-o"}, "--output"},
+    {"SceneMissing", {"render", "/nowhere/room.dae", "-o", "OUT"}, "room.dae: "},
+    {"SceneIsAFolder", {"render", "/dev", "-o", "OUT"}, "dev: "},
+    {"SceneIsADevice", {"render", "/dev/zero", "-o", "OUT"}, "zero: "},
+    {"SceneIsEmpty", {"render", "/dev/null", "-o", "OUT"}, "null: "},
+    {"UnknownEnding", {"render", "SCENE", "-o", "picture.jpg"}, "picture.jpg"},
+    {"NoEnding", {"render", "SCENE", "-o", "picture"}, "picture"},
+    {"SecondOutputBad", {"render", "SCENE", "-o", "OUT", "-o", "picture.tiff"}, "picture.tiff"},
+    {"FolderMissing", {"render", "SCENE", "-o", "/nowhere/a.exr"}, "/nowhere"},
+    {"FolderUnwritable", {"render", "SCENE", "-o", "/proc/a.exr"}, "/proc/a.exr"},
+    {"OutputIsEmpty", {"render", "SCENE", "-o", ""}, ""},
+    {"SizeOfNothing", {"render", "SCENE", "-o", "OUT", "--size", "0x0"}, "--size 0x0"},
+    {"SizeNegative", {"render", "SCENE", "-o", "OUT", "--size", "-1x5"}, "--size"},
+    {"SizeNegativeHeight", {"render", "SCENE", "-o", "OUT", "--size", "5x-1"}, "--size 5x-1"},
+    {"SizeWithoutHeight", {"render", "SCENE", "-o", "OUT", "--size", "10x"}, "--size 10x"},
+    {"SizeWithoutX", {"render", "SCENE", "-o", "OUT", "--size", "10"}, "--size 10"},
+    {"SizeWithMore", {"render", "SCENE", "-o", "OUT", "--size", "10x10x3"}, "--size 10x10x3"},
+    {"SizeWithSpace", {"render", "SCENE", "-o", "OUT", "--size", "10 x10"}, "--size 10 x10"},
+    {"SizeHuge",
+     {"render", "SCENE", "-o", "OUT", "--size", "99999999x99999999"},
+     "--size 99999999x99999999"},
+    {"SizeBeyondIntegers",
+     {"render", "SCENE", "-o", "OUT", "--size", "4294967297x1"},
+     "--size 4294967297x1"},
+    {"NoSamples", {"render", "SCENE", "-o", "OUT", "-s", "0"}, "--samples"},
+    {"NegativeSamples", {"render", "SCENE", "-o", "OUT", "-s", "-4"}, "--samples"},
+    {"SamplesInWords", {"render", "SCENE", "-o", "OUT", "-s", "many"}, "many"},
+    {"HalfASample", {"render", "SCENE", "-o", "OUT", "-s", "4.5"}, "4.5"},
+    {"SamplesNoWholeBatch", {"render", "SCENE", "-o", "OUT", "-s", "6"}, "-s 6"},
+    {"SamplesHuge", {"render", "SCENE", "-o", "OUT", "-s", "2147483652"}, "--samples"},
+    {"SamplesBeyondIntegers",
+     {"render", "SCENE", "-o", "OUT", "-s", "99999999999999999999999"},
+     "--samples"},
+    {"BatchOfNothing", {"render", "SCENE", "-o", "OUT", "--batch", "0"}, "--batch"},
+    {"NoThreads", {"render", "SCENE", "-o", "OUT", "-t", "0"}, "--threads"},
+    {"ThreadsHuge", {"render", "SCENE", "-o", "OUT", "-t", "4000000000"}, "--threads"},
+    {"NoEdges", {"render", "SCENE", "-o", "OUT", "--max-edges", "0"}, "--max-edges"},
+    {"NegativeEdges", {"render", "SCENE", "-o", "OUT", "--max-edges", "-3"}, "--max-edges"},
+    {"EndlessPaths", {"render", "SCENE", "-o", "OUT", "--no-roulette"}, "--max-edges"},
+    {"UnknownIntegrator", {"render", "SCENE", "-o", "OUT", "--integrator", "magic"}, "--integrator"},
+    {"SeedNegative", {"render", "SCENE", "-o", "OUT", "--seed", "-1"}, "--seed"},
+    {"SeedBeyond64Bits", {"render", "SCENE", "-o", "OUT", "--seed", "18446744073709551616"}, "--seed"},
+    {"ExposureInWords", {"render", "SCENE", "-o", "OUT", "--exposure", "bright"}, "--exposure"},
+    {"ExposureNan", {"render", "SCENE", "-o", "OUT", "--exposure", "nan"}, "--exposure"},
+    {"WatchNan", {"render", "SCENE", "-o", "OUT", "--watch", "nan"}, "--watch"},
+    {"StrategiesEndless", {"render", "SCENE", "-o", "OUT", "--strategies", "OUTs.exr"}, "--max-edges"},
+    {"StrategiesEnding",
+     {"render", "SCENE", "-o", "OUT", "--strategies", "OUTs.png", "--max-edges", "3"},
+     ".exr"},
+    {"UnweightedWhat", {"render", "SCENE", "-o", "OUT", "--unweighted"}, "--strategies"},
+    {"ResumeWithoutExr", {"render", "SCENE", "-o", "OUT.png", "--resume"}, ".exr"},
+};
+
+class RenderRefuses : public testing::TestWithParam<Mistake> {};
+
+INSTANTIATE_TEST_SUITE_P(Render, RenderRefuses, testing::ValuesIn(mistakes),
+                         [](const auto& mistake) { return std::string(mistake.param.name); });
+
+TEST_P(RenderRefuses, WithOneLineAndNoFile)
+{
+    const TemporaryFolder folder;
+    Arguments arguments = GetParam().arguments;
+    for (std::string& word : arguments) {
+        if (word == "SCENE") word = scene_file("point_over_plane");
+        if (word.rfind("OUT", 0) == 0) word = (folder / (word == "OUT" ? "out.exr" : word)).string();
+    }
+    if (!arguments.empty() && arguments[0] == "render" &&
+        std::find(arguments.begin(), arguments.end(), "--size") == arguments.end())
+        arguments.insert(arguments.begin() + 1, {"--size", "6x4"}); // in case it is not refused
+    expect_complaint(run(arguments), GetParam().complaint);
+    EXPECT_EQ(folder.entries(), 0u);
+}
+
+class RenderFailures : public testing::Test {
+protected:
+    TemporaryFolder folder;
+    std::string out = (folder / "out.exr").string();
+    const Arguments good = {"render", scene_file("point_over_plane"), "-o", out, "--size", "24x16", "-s",
+                            "8"};
+
+    Outcome render_file(const std::string& text)
+    {
+        write_bytes(folder / "scene.dae", text);
+        const Outcome outcome =
+            run({"render", (folder / "scene.dae").string(), "-o", out, "--size", "6x4"});
+        EXPECT_FALSE(std::filesystem::exists(out));
+        EXPECT_EQ(folder.entries(), 1u);
+        return outcome;
+    }
+};
+
+TEST_F(RenderFailures, BrokenXmlIsNamedWithItsLine)
+{
+    const std::string text = read_bytes(scene_file("point_over_plane"));
+    const Outcome outcome = render_file(text.substr(0, text.size() / 2));
+    expect_complaint(outcome, "scene.dae:");
+    const std::string rest = outcome.err.substr(outcome.err.find("scene.dae:") + 10);
+    EXPECT_GT(std::atoi(rest.c_str()), 0) << outcome.err;
+}
+
+TEST_F(RenderFailures, AnErrorInTheSceneIsNamedWithItsLineAndElement)
+{
+    std::string text = read_bytes(scene_file("point_over_plane"));
+    const std::size_t at = text.find("<yfov>");
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, 6, "<yfov>wide ");
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    const Outcome outcome = render_file(text);
+    expect_complaint(outcome, "scene.dae:" + std::to_string(line) + ": ");
+    EXPECT_NE(outcome.err.find("<yfov>"), std::string::npos) << outcome.err;
+}
+
+TEST_F(RenderFailures, ASceneWithoutACameraIsRefused)
+{
+    std::string text = read_bytes(scene_file("point_over_plane"));
+    const std::size_t at = text.find("<instance_camera");
+    ASSERT_NE(at, std::string::npos);
+    text.erase(at, text.find("/>", at) + 2 - at);
+    expect_complaint(render_file(text), "camera");
+}
+
+TEST_F(RenderFailures, AFolderInThePlaceOfTheOutputStays)
+{
+    std::filesystem::create_directory(out);
+    expect_complaint(run(good), out);
+    EXPECT_TRUE(std::filesystem::is_directory(out));
+    EXPECT_EQ(folder.entries(), 1u);
+}
+
+// A few hundred bytes fit: enough for the header of any format and for none of the picture.
+TEST_F(RenderFailures, OnAFullDiskNothingIsLeft)
+{
+    for (const char* name : {"out.exr", "out.pfm", "out.png"}) {
+        Arguments arguments = good;
+        arguments[3] = (folder / name).string();
+        expect_complaint(run(arguments, {.largest_file = 300}), name);
+        EXPECT_EQ(folder.entries(), 0u);
+    }
+}
+
+TEST_F(RenderFailures, OnAFullDiskAnEarlierPictureStays)
+{
+    ASSERT_EQ(run(good).status, 0);
+    const std::string before = read_bytes(out);
+    expect_complaint(run(good + Arguments{"--seed", "2"}, {.largest_file = 300}), "out.exr");
+    EXPECT_TRUE(before == read_bytes(out));
+    EXPECT_EQ(folder.entries(), 1u);
+}
+
+/// A picture of 8 samples lies there already, and must stay as it is.
+class Resume : public RenderFailures {
+protected:
+    Resume()
+    {
+        EXPECT_EQ(run(good).status, 0);
+        before = read_bytes(out);
+    }
+    std::string before;
+
+    void expect_refusal(const Arguments& arguments, const std::string& complaint)
+    {
+        const Outcome outcome = run(arguments + Arguments{"--resume"});
+        expect_complaint(outcome, complaint);
+        EXPECT_NE(outcome.err.find("out.exr"), std::string::npos) << outcome.err;
+        EXPECT_TRUE(before == read_bytes(out));
+        EXPECT_EQ(folder.entries(), 1u);
+    }
+};
+
+TEST_F(Resume, RefusesAnotherPicture)
+{
+    expect_refusal(good + Arguments{"--seed", "5"}, "seed is '0', not '5'");
+    expect_refusal(good + Arguments{"--max-edges", "5"}, "max_edges");
+    expect_refusal(good + Arguments{"--frame"}, "camera");
+    expect_refusal(good + Arguments{"--batch", "2"}, "batch_size");
+    expect_refusal(good + Arguments{"--integrator", "bdpt"}, "integrator");
+    expect_refusal({"render", scene_file("sphere_over_plane"), "-o", out, "--size", "24x16", "-s", "8"},
+                   "scene");
+    expect_refusal({"render", good[1], "-o", out, "--size", "16x24", "-s", "8"}, "24x16");
+    expect_refusal({"render", good[1], "-o", out, "--size", "24x16", "-s", "4"}, "8 samples");
+}
+
+TEST_F(Resume, RefusesTheSameSceneFileWithOtherContent)
+{
+    const TemporaryFolder elsewhere;
+    const std::string copy = (elsewhere / "point_over_plane.dae").string();
+    write_bytes(copy, read_bytes(good[1]) + "<!-- changed -->");
+    Arguments arguments = good;
+    arguments[1] = copy;
+    expect_refusal(arguments, "scene_hash");
+}
+
+TEST_F(Resume, RefusesADamagedFileAndLeavesItAlone)
+{
+    for (const std::string& damaged : {before.substr(0, before.size() / 2), before.substr(0, 200),
+                                       std::string(), std::string("no picture")}) {
+        write_bytes(out, damaged);
+        expect_complaint(run(good + Arguments{"--resume"}), "out.exr");
+        EXPECT_TRUE(damaged == read_bytes(out));
+        EXPECT_EQ(folder.entries(), 1u);
+    }
+}
+
+TEST_F(Resume, RefusesAPictureOfAnotherMaking)
+{
+    golden::ExrPicture picture = golden::read_exr(out);
+    golden::write_exr(out, *picture.film, picture.metadata, {}, golden::FilmState::omit);
+    before = read_bytes(out);
+    expect_refusal(good, "state");
+}
+
+TEST_F(Resume, OfAFinishedPictureChangesNothing)
+{
+    const Outcome outcome = run(good + Arguments{"--resume"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(before == read_bytes(out));
+}
+
+TEST_F(Resume, OfNothingBeginsAtTheBeginning)
+{
+    std::filesystem::remove(out);
+    EXPECT_EQ(run(good + Arguments{"--resume"}).status, 0);
+    EXPECT_TRUE(before == read_bytes(out));
+}
+
+} // namespace

@@ -1,0 +1,152 @@
+#pragma once
+
+// Runs the program as a person or a script does: a process of its own, with what it prints and how it
+// ends.
+
+#include "tests/golden/temporary_folder.h"
+
+#include <fcntl.h>
+#include <pty.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cli_test {
+
+using golden_test::read_bytes;
+using golden_test::TemporaryFolder;
+using golden_test::write_bytes;
+using Arguments = std::vector<std::string>;
+
+inline std::string scene_file(const std::string& name)
+{
+    return (std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "scenes" / (name + ".dae")).string();
+}
+
+inline Arguments operator+(Arguments a, const Arguments& b)
+{
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+struct Outcome {
+    int status; // exit status, or minus the signal that ended the process
+    std::string out;
+    std::string err;
+};
+
+/// How the process is started.
+struct Surroundings {
+    bool terminal = false; // stdout and stderr are a terminal: both are found in Outcome::out
+    std::optional<rlim_t> largest_file{}; // bytes: as if the disk were full beyond
+};
+
+/// Waits for `condition` for as long as a slow machine may take. Whether it came true.
+template <class Condition>
+bool eventually(Condition condition)
+{
+    for (int i = 0; i < 3000; ++i) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
+class Process {
+public:
+    explicit Process(const Arguments& arguments, const Surroundings& surroundings = {})
+    {
+        std::string program = PLUMBLINE_PROGRAM;
+        std::vector<std::string> texts = arguments;
+        std::vector<char*> argv = {program.data()};
+        for (std::string& text : texts) argv.push_back(text.data());
+        argv.push_back(nullptr);
+        const std::string out = (folder_ / "out").string();
+        const std::string err = (folder_ / "err").string();
+
+        pid_ = surroundings.terminal ? forkpty(&terminal_, nullptr, nullptr, nullptr) : fork();
+        if (pid_ < 0) throw std::runtime_error("cannot start a process");
+        if (pid_ > 0) {
+            if (terminal_ >= 0) fcntl(terminal_, F_SETFL, O_NONBLOCK);
+            return;
+        }
+        if (!surroundings.terminal) {
+            dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+            dup2(open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
+            dup2(open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+        }
+        if (surroundings.largest_file) {
+            const rlimit limit{*surroundings.largest_file, *surroundings.largest_file};
+            setrlimit(RLIMIT_FSIZE, &limit);
+            std::signal(SIGXFSZ, SIG_IGN); // write() fails instead, as it does on a full disk
+        }
+        execv(program.c_str(), argv.data());
+        _exit(127);
+    }
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+    ~Process()
+    {
+        if (pid_ > 0) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+        if (terminal_ >= 0) close(terminal_);
+    }
+
+    void send(int signal) const { kill(pid_, signal); }
+
+    /// Whether the process has made its own arrangements for `signal` (Linux: proc(5), SigCgt).
+    [[nodiscard]] bool catches(int signal) const
+    {
+        std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
+        for (std::string word; status >> word;)
+            if (word == "SigCgt:" && status >> word)
+                return (std::stoull(word, nullptr, 16) >> (signal - 1) & 1) != 0;
+        return false;
+    }
+
+    /// What has been printed on the terminal so far.
+    const std::string& printed()
+    {
+        std::array<char, 4096> some{};
+        for (ssize_t n = 0; (n = read(terminal_, some.data(), some.size())) > 0;)
+            on_terminal_.append(some.data(), static_cast<std::size_t>(n));
+        return on_terminal_;
+    }
+
+    /// Waits for the end.
+    Outcome finish()
+    {
+        int status = 0;
+        if (terminal_ >= 0) // a terminal that no one reads blocks who writes
+            eventually([&] { return printed(), waitpid(pid_, &status, WNOHANG) != 0; });
+        else
+            waitpid(pid_, &status, 0);
+        pid_ = 0;
+        const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+        if (terminal_ >= 0) return {code, printed(), ""};
+        return {code, read_bytes(folder_ / "out"), read_bytes(folder_ / "err")};
+    }
+
+private:
+    TemporaryFolder folder_;
+    pid_t pid_ = 0;
+    int terminal_ = -1;
+    std::string on_terminal_;
+};
+
+inline Outcome run(const Arguments& arguments, const Surroundings& surroundings = {})
+{
+    return Process(arguments, surroundings).finish();
+}
+
+} // namespace cli_test
