@@ -123,6 +123,27 @@ protected:
                                     });
     }
 
+    /// A narrow view of the point (-7, 0, 0): 0.13 wide there, so that the rim does not come into view.
+    static void look_from_the_left(scenes::Scene& moved)
+    {
+        auto& camera = *moved.camera;
+        camera.eye = {-20.0, 0.0, 0.0};
+        camera.backward = {-1.0, 0.0, 0.0};
+        camera.right = {0.0, -1.0, 0.0};
+        camera.up = {0.0, 0.0, 1.0};
+        camera.fov = 0.01;
+    }
+    void expect_albedo_times_sky(const scenes::Scene& seen, int batch_size, double bias) const
+    {
+        const ref::World there(seen, 8, 8);
+        const auto batches = tests::estimate(
+            there, GetParam().integrator,
+            {.batches = 32, .batch_size = GetParam().samples(batch_size), .path = {.seed = 37}});
+        for (int channel = 0; channel < 3; ++channel)
+            tests::expect_mean(tests::measure(batches, {0, 0, 8, 8}, channel),
+                               rho[channel] * sky[channel], GetParam().bias(bias));
+    }
+
     /// The confidence interval of the mean over a sphere reaches neither below nor above the bounds, and
     /// is narrow: two hundredths, for the fastest integrator.
     void expect_between(const tests::Batches& batches, std::uint32_t sphere, const Rgb& low,
@@ -167,19 +188,21 @@ TEST_P(GreyFurnace, LightLiesBetweenItsBounds)
 TEST_P(GreyFurnace, ConvexAndAloneItReflectsItsAlbedo)
 {
     scenes::Scene from_the_left = scene;
-    auto& camera = *from_the_left.camera;
-    camera.eye = {-20.0, 0.0, 0.0};
-    camera.backward = {-1.0, 0.0, 0.0};
-    camera.right = {0.0, -1.0, 0.0};
-    camera.up = {0.0, 0.0, 1.0};
-    camera.fov = 0.01; // 0.13 wide at the sphere: its rim does not come into view
-    const ref::World left(from_the_left, 8, 8);
-    const auto batches =
-        tests::estimate(left, GetParam().integrator,
-                        {.batches = 32, .batch_size = GetParam().samples(32), .path = {.seed = 37}});
-    for (int channel = 0; channel < 3; ++channel)
-        tests::expect_mean(tests::measure(batches, {0, 0, 8, 8}, channel), rho[channel] * sky[channel],
-                           GetParam().bias(0.015));
+    look_from_the_left(from_the_left);
+    expect_albedo_times_sky(from_the_left, 32, 0.015);
+}
+
+// A light that nothing sees, inside the grey sphere, takes half of the samples and must not take any
+// light: the probability of choosing the sky belongs in its density, on both sides of every weight.
+TEST_P(GreyFurnace, ALightThatNothingSeesTakesNothingAway)
+{
+    scenes::Scene hidden = scene;
+    look_from_the_left(hidden);
+    hidden.point_lights.push_back({hidden.spheres.at(0).center, Rgb(100.0)});
+    const ref::World left(hidden, 8, 8);
+    EXPECT_GT(left.emitters.environment()->probability, 0.2);
+    EXPECT_LT(left.emitters.environment()->probability, 0.8);
+    expect_albedo_times_sky(hidden, 64, 0.02);
 }
 
 // Every bounce off grey multiplies by its albedo, and nothing else changes what a walk brings: not
