@@ -103,9 +103,10 @@ void draw(const scenes::Scene& scene, const char* out)
             for (std::size_t r = 0; r < regions; ++r) means[method][r].push_back(by_region[r]);
             for (int y = 0; y < height; ++y)
                 for (int x = 0; x < width; ++x)
-                    side_by_side.pixels[static_cast<std::size_t>((y + label) * side_by_side.width +
-                                                                 static_cast<int>(method) * width + x)] +=
-                        images[method].pixels[static_cast<std::size_t>(y * width + x)] / static_cast<double>(runs);
+                    side_by_side.pixels[static_cast<std::size_t>(
+                        (y + label) * side_by_side.width + static_cast<int>(method) * width + x)] +=
+                        images[method].pixels[static_cast<std::size_t>(y * width + x)] /
+                        static_cast<double>(runs);
         }
     }
     constexpr std::array names = {"1 / (i + j + 1)", "balance heuristic", "path tracing"};
