@@ -4,8 +4,6 @@
 #include "ref/transport/mis_weight.h"
 #include "ref/transport/visibility.h"
 
-#include <ranges>
-
 namespace ref {
 
 namespace {
@@ -15,7 +13,7 @@ Path join(std::span<const Vertex> y, std::span<const Vertex> z)
 {
     Path x;
     for (const Vertex& vertex : y) x.push_back(&vertex);
-    for (const Vertex& vertex : z | std::views::reverse) x.push_back(&vertex);
+    for (std::size_t t = z.size(); t > 0; --t) x.push_back(&z[t - 1]);
     return x;
 }
 
