@@ -4,6 +4,7 @@
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 #include "ref/transport/render.h"
+#include "tests/transport/changed_scene.h"
 #include "tests/transport/estimate.h"
 #include "tests/transport/scene_files.h"
 
@@ -18,6 +19,8 @@ namespace {
 using ref::Contribution;
 using ref::Rgb;
 using ref::Vec3;
+using tests::moved;
+using tests::scaled;
 constexpr double pi = std::numbers::pi;
 
 /// PLUMBLINE_LONG multiplies the samples, for a night's run.
@@ -309,28 +312,6 @@ TEST(Infinity, TheSkyIsHitAndChosenWithTheirShares)
 }
 
 // --- the same light in other clothes ---------------------------------------------------------------
-
-scenes::Scene scaled(scenes::Scene scene, double factor)
-{
-    for (auto& triangle : scene.triangles)
-        for (Vec3& v : triangle.vertices) v *= factor;
-    for (auto& sphere : scene.spheres) sphere.center *= factor, sphere.radius *= factor;
-    for (auto& light : scene.point_lights) light.position *= factor, light.intensity *= factor * factor;
-    for (auto& light : scene.spot_lights) light.position *= factor, light.intensity *= factor * factor;
-    scene.camera->eye *= factor;
-    return scene;
-}
-
-scenes::Scene moved(scenes::Scene scene, const Vec3& by)
-{
-    for (auto& triangle : scene.triangles)
-        for (Vec3& v : triangle.vertices) v += by;
-    for (auto& sphere : scene.spheres) sphere.center += by;
-    for (auto& light : scene.point_lights) light.position += by;
-    for (auto& light : scene.spot_lights) light.position += by;
-    scene.camera->eye += by;
-    return scene;
-}
 
 std::vector<Contribution> samples(const scenes::Scene& scene, int max_edges, std::uint32_t count)
 {

@@ -2,6 +2,7 @@
 // brightened, reordered or cut into pieces.
 
 #include "ref/transport/path_tracer.h"
+#include "tests/transport/changed_scene.h"
 #include "tests/transport/estimate.h"
 #include "tests/transport/scene_files.h"
 
@@ -13,6 +14,8 @@ namespace {
 
 using ref::Rgb;
 using ref::Vec3;
+using tests::moved;
+using tests::scaled;
 
 constexpr int width = 48;
 constexpr int height = 32;
@@ -22,29 +25,6 @@ tests::Batches render(const scenes::Scene& scene, const tests::EstimateOptions& 
 {
     const ref::World world(scene, width, height);
     return tests::estimate(world, ref::trace_path, options);
-}
-
-/// Every length times `factor`. Radiance stays what it is when intensities grow with the square.
-scenes::Scene scaled(scenes::Scene scene, double factor)
-{
-    for (auto& triangle : scene.triangles)
-        for (Vec3& v : triangle.vertices) v *= factor;
-    for (auto& sphere : scene.spheres) sphere.center *= factor, sphere.radius *= factor;
-    for (auto& light : scene.point_lights) light.position *= factor, light.intensity *= factor * factor;
-    for (auto& light : scene.spot_lights) light.position *= factor, light.intensity *= factor * factor;
-    scene.camera->eye *= factor;
-    return scene;
-}
-
-scenes::Scene moved(scenes::Scene scene, const Vec3& by)
-{
-    for (auto& triangle : scene.triangles)
-        for (Vec3& v : triangle.vertices) v += by;
-    for (auto& sphere : scene.spheres) sphere.center += by;
-    for (auto& light : scene.point_lights) light.position += by;
-    for (auto& light : scene.spot_lights) light.position += by;
-    scene.camera->eye += by;
-    return scene;
 }
 
 /// All light times `factor`.
