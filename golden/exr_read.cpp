@@ -27,9 +27,9 @@ using namespace exr_format;
 
 namespace {
 
-class MemoryStream : public Imf::IStream {
+class MemoryInput : public Imf::IStream {
 public:
-    MemoryStream(const std::string& name, std::string_view bytes) : IStream(name.c_str()), bytes_(bytes)
+    MemoryInput(const std::string& name, std::string_view bytes) : IStream(name.c_str()), bytes_(bytes)
     {}
     bool read(char data[], int size) override
     {
@@ -102,9 +102,9 @@ public:
 
 private:
     /// The file as a stream, if it is a flat picture in one part.
-    static MemoryStream flat_picture(const fs::path& path, std::string_view bytes)
+    static MemoryInput flat_picture(const fs::path& path, std::string_view bytes)
     {
-        MemoryStream stream(path.filename().string(), bytes);
+        MemoryInput stream(path.filename().string(), bytes);
         bool tiled = false;
         bool deep = false;
         bool parts = false;
@@ -164,7 +164,7 @@ private:
     }
 
     const fs::path& path_;
-    MemoryStream stream_;
+    MemoryInput stream_;
     Imf::InputFile file_;
     Imath::Box2i window_;
     int width_ = 0, height_ = 0;

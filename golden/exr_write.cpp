@@ -24,9 +24,9 @@ using namespace exr_format;
 namespace {
 
 /// An EXR file in memory: only what is complete goes to the disk.
-class MemoryStream : public Imf::OStream {
+class MemoryOutput : public Imf::OStream {
 public:
-    MemoryStream() : OStream("memory") {}
+    MemoryOutput() : OStream("memory") {}
     void write(const char data[], int size) override
     {
         const auto count = static_cast<std::size_t>(size);
@@ -80,7 +80,7 @@ public:
 
     std::string encode()
     {
-        MemoryStream stream;
+        MemoryOutput stream;
         {
             Imf::OutputFile file(stream, header_);
             file.setFrameBuffer(buffer_);

@@ -1,0 +1,25 @@
+# plumbline_tidy(TARGET): one file that includes all sources of a target of this folder, and, so that
+# clang-tidy finds its command line, a library of it that nobody builds (tests/lint/tidy.sh looks at these).
+# It makes names in anonymous namespaces unique in a folder, and the check three times as fast.
+function(plumbline_tidy target)
+    get_target_property(sources ${target} SOURCES)
+    set(content "")
+    foreach(source IN LISTS sources)
+        if(source MATCHES "\\.cpp$")
+            string(APPEND content "#include \"${CMAKE_CURRENT_SOURCE_DIR}/${source}\"\n")
+        endif()
+    endforeach()
+    if(NOT content)
+        return() # device code alone
+    endif()
+    set(file ${PROJECT_BINARY_DIR}/tidy/${target}.cpp)
+    file(CONFIGURE OUTPUT ${file} CONTENT "${content}" @ONLY)
+    add_library(tidy_${target} OBJECT EXCLUDE_FROM_ALL ${file})
+    target_include_directories(tidy_${target} PRIVATE ${PROJECT_SOURCE_DIR})
+    foreach(property IN ITEMS LINK_LIBRARIES COMPILE_DEFINITIONS)
+        get_target_property(value ${target} ${property})
+        if(value)
+            set_target_properties(tidy_${target} PROPERTIES ${property} "${value}")
+        endif()
+    endforeach()
+endfunction()
