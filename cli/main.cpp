@@ -39,6 +39,11 @@ int main(int argc, char** argv)
         return work();
     } catch (const CLI::Success& help) {
         return program.exit(help);
+    } catch (const CLI::RequiredError& error) {
+        // CLI11 says what is missing, not which word it did not know.
+        const std::string_view word = argc > 1 ? argv[1] : "-";
+        if (word.starts_with('-') || program.get_subcommands().size() == 1) return complain(error.what());
+        return complain(std::string(word) + ": no such command (plumbline --help lists them)");
     } catch (const CLI::ParseError& error) {
         return complain(std::string(error.what()) + " (plumbline --help lists what there is)");
     } catch (const std::bad_alloc&) {

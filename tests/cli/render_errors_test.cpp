@@ -38,7 +38,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out)
 
 const std::vector<Mistake> mistakes = {
     {"NoSubcommand", {}, "subcommand"},
-    {"UnknownSubcommand", {"paint"}, "subcommand"},
+    {"UnknownSubcommand", {"paint"}, "paint: no such command"},
     {"UnknownOption", {"render", "SCENE", "-o", "OUT", "--brighter"}, "--brighter"},
     {"NoScene", {"render", "-o", "OUT"}, "scene"},
     {"TwoScenes", {"render", "SCENE", "-o", "OUT", "--seed", "1", "SCENE"}, ".dae"},
