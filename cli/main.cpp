@@ -42,7 +42,8 @@ int main(int argc, char** argv)
     } catch (const CLI::RequiredError& error) {
         // CLI11 says what is missing, not which word it did not know.
         const std::string_view word = argc > 1 ? argv[1] : "-";
-        if (word.starts_with('-') || program.get_subcommands().size() == 1) return complain(error.what());
+        if (word.starts_with('-') || program.get_subcommands().size() == 1)
+            return complain(error.what());
         return complain(std::string(word) + ": no such command (plumbline --help lists them)");
     } catch (const CLI::ParseError& error) {
         return complain(std::string(error.what()) + " (plumbline --help lists what there is)");
