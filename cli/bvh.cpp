@@ -2,6 +2,7 @@
 
 #include "cli/bvh.h"
 
+#include "cli/builders.h"
 #include "cli/bvh_measure.h"
 #include "cli/bvh_picture.h"
 #include "cli/bvh_svg.h"
@@ -29,6 +30,7 @@ struct Options {
     std::string scene;
     std::string builder;
     std::string picture;
+    std::string show = "boxes";
     std::string figure;
     int level = 4;
     int repeats = 5;
@@ -95,6 +97,15 @@ std::string figure_of(const scenes::Scene& scene, const Options& options)
     return radix_tree_figure(sorted, tree.primitives, 3 * bits_per_axis);
 }
 
+golden::Image picture_of(const ref::Geometry& geometry, const Options& options, const Size& size)
+{
+    constexpr std::size_t pieces = 16;
+    constexpr double most_visits = 64;
+    if (options.show == "order") return draw_order(geometry, pieces, size.width, size.height);
+    if (options.show == "visits") return draw_visits(geometry, most_visits, size.width, size.height);
+    return draw_boxes(geometry, options.level, size.width, size.height);
+}
+
 ExitStatus bvh(const Options& options)
 {
     const Size size = parse_size(options.size);
@@ -107,7 +118,7 @@ ExitStatus bvh(const Options& options)
     if (!options.figure.empty()) golden::write_atomically(options.figure, figure_of(scene, options));
     if (!options.picture.empty()) {
         const ref::Geometry geometry(scene, chosen(options).front().builder);
-        golden::write_png(options.picture, draw_boxes(geometry, options.level, size.width, size.height));
+        golden::write_png(options.picture, picture_of(geometry, options, size));
     }
     const bool only_drawn = !options.figure.empty() || !options.picture.empty();
     if (only_drawn && !options.json) return fine;
@@ -135,8 +146,13 @@ void add_bvh_command(CLI::App& program, Work& work)
         program.add_subcommand("bvh", "Build, measure and draw the trees of a scene file");
     command->add_option("scene", options->scene, "COLLADA file")->required();
     command->add_option("--builder", options->builder, "morton30, morton63, sah or sah-leaf [all]")
-        ->check(CLI::IsMember({"morton30", "morton63", "sah", "sah-leaf"}));
-    command->add_option("--picture", options->picture, "Draw boxes over the scene: .png");
+        ->check(CLI::IsMember(builder_names()));
+    command->add_option("--picture", options->picture, "Draw what --show says: .png");
+    command
+        ->add_option("--show", options->show,
+                     "boxes; order (of leaves, in 16 pieces); visits (boxes entered, white: 64)")
+        ->check(CLI::IsMember({"boxes", "order", "visits"}))
+        ->capture_default_str();
     command->add_option("--level", options->level, "Which boxes: those at this depth, root 0")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();

@@ -2,24 +2,13 @@
 
 // What a tree builder costs, and what its trees are worth.
 
+#include "cli/builders.h"
 #include "cli/scene_input.h"
-#include "ref/trees/bvh.h"
 #include "scenes/scene.h"
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <array>
-
 namespace cli {
-
-struct NamedBuilder {
-    const char* name;
-    ref::Builder builder;
-};
-
-inline constexpr std::array builders = {
-    NamedBuilder{"morton30", ref::Builder::morton30}, NamedBuilder{"morton63", ref::Builder::morton63},
-    NamedBuilder{"sah", ref::Builder::sah}, NamedBuilder{"sah-leaf", ref::Builder::sah_leaf}};
 
 /// Builds the tree `repeats` times, and sends a ray through the middle of each pixel of a picture of
 /// this size and one diffusely from where it hits: the entry of `plumbline bvh --json` for this builder.

@@ -15,11 +15,11 @@ namespace {
 
 using ref::Vec3;
 
-/// Hues around the circle in golden-angle steps: neighbours differ.
+/// Hues around the circle in golden-angle steps: neighbours differ. Dark enough for a white ground.
 golden::Rgb color_of(std::size_t number)
 {
     const double hue = 2.399963 * static_cast<double>(number);
-    const auto channel = [&](double shift) { return 0.5 + 0.5 * std::cos(hue - shift); };
+    const auto channel = [&](double shift) { return 0.35 + 0.35 * std::cos(hue - shift); };
     return golden::Rgb(channel(0), channel(2.094395), channel(4.188790));
 }
 
@@ -70,25 +70,32 @@ struct Canvas {
     std::vector<double> depth;
 };
 
-Canvas shade(const ref::Geometry& geometry, int width, int height)
+/// Calls `visit(pixel, ray)` with the ray through the middle of every pixel.
+template <typename Visit>
+void for_each_pixel(const scenes::Camera& camera, int width, int height, Visit visit)
+{
+    const ref::Camera pinhole(camera, width, height);
+    std::size_t pixel = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) visit(pixel++, pinhole.ray({x + 0.5, y + 0.5}));
+}
+
+/// The scene by headlight, its primitives in the colours that `albedo(primitive)` gives.
+template <typename Albedo>
+Canvas shade(const ref::Geometry& geometry, int width, int height, Albedo albedo)
 {
     const scenes::Camera& camera = *geometry.scene().camera;
-    const ref::Camera pinhole(camera, width, height);
     Canvas canvas{golden::Image(width, height), {}};
     canvas.depth.assign(canvas.image.pixels.size(), std::numeric_limits<double>::infinity());
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                               static_cast<std::size_t>(x);
-            const ref::Ray ray = pinhole.ray({x + 0.5, y + 0.5});
-            canvas.image.pixels[pixel] = golden::Rgb(0.9);
-            if (const auto hit = intersect(geometry, ray)) {
-                const double cosine =
-                    std::abs(glm::dot(ray.direction, surface_point(geometry, ray, *hit).normal));
-                canvas.image.pixels[pixel] = golden::Rgb(0.05 + 0.5 * cosine);
-                canvas.depth[pixel] = -hit->t * glm::dot(ray.direction, camera.backward);
-            }
-        }
+    for_each_pixel(camera, width, height, [&](std::size_t pixel, const ref::Ray& ray) {
+        canvas.image.pixels[pixel] = golden::Rgb(0.9);
+        const auto hit = intersect(geometry, ray);
+        if (!hit) return;
+        const double cosine =
+            std::abs(glm::dot(ray.direction, surface_point(geometry, ray, *hit).normal));
+        canvas.image.pixels[pixel] = (0.1 + 0.9 * cosine) * albedo(hit->primitive);
+        canvas.depth[pixel] = -hit->t * glm::dot(ray.direction, camera.backward);
+    });
     return canvas;
 }
 
@@ -125,7 +132,7 @@ void draw_line(Canvas& canvas, const scenes::Camera& camera, const Vec3& a, cons
 golden::Image draw_boxes(const ref::Geometry& geometry, int level, int width, int height)
 {
     const scenes::Camera& camera = *geometry.scene().camera;
-    Canvas canvas = shade(geometry, width, height);
+    Canvas canvas = shade(geometry, width, height, [](std::uint32_t) { return golden::Rgb(0.55); });
     std::size_t number = 0;
     for (const ref::Aabb& box : boxes_at(geometry.tree(), level)) {
         const golden::Rgb color = color_of(number++);
@@ -140,6 +147,29 @@ golden::Image draw_boxes(const ref::Geometry& geometry, int level, int width, in
                     draw_line(canvas, camera, corner(bits), corner(bits | axis), color);
     }
     return canvas.image;
+}
+
+golden::Image draw_order(const ref::Geometry& geometry, std::size_t pieces, int width, int height)
+{
+    const std::vector<std::uint32_t>& order = geometry.tree().primitives;
+    std::vector<std::size_t> piece(order.size());
+    for (std::size_t place = 0; place < order.size(); ++place)
+        piece[order[place]] = place * pieces / order.size();
+    return shade(geometry, width, height,
+                 [&](std::uint32_t primitive) { return color_of(piece[primitive]); })
+        .image;
+}
+
+golden::Image draw_visits(const ref::Geometry& geometry, double most, int width, int height)
+{
+    golden::Image image(width, height);
+    for_each_pixel(*geometry.scene().camera, width, height, [&](std::size_t pixel, const ref::Ray& ray) {
+        ref::Work work;
+        intersect(geometry, ray, &work);
+        const double x = 3 * static_cast<double>(work.nodes) / most;
+        image.pixels[pixel] = glm::clamp(golden::Rgb(x, x - 1, x - 2), 0.0, 1.0);
+    });
+    return image;
 }
 
 } // namespace cli

@@ -90,7 +90,7 @@ ExitStatus render(const RenderCommand& options)
     golden::Film film = starting_film(options, metadata);
     const std::uint64_t batches_before = film.batches();
     const ref::RenderOptions plan = render_options(options);
-    const ref::World world(scene, size.width, size.height);
+    const ref::World world(scene, size.width, size.height, builder_of(options));
     std::optional<ref::StrategyLayers> layers;
     if (!options.strategies.empty() || !options.strategies_picture.empty())
         layers.emplace(size.width, size.height, options.max_edges, !options.unweighted);

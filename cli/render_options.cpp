@@ -1,5 +1,6 @@
 #include "cli/render_options.h"
 
+#include "cli/builders.h"
 #include "golden/write_image.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
@@ -50,6 +51,11 @@ void add_render_options(CLI::App& command, RenderCommand& options)
         ->capture_default_str();
     command.add_option("--integrator", options.integrator, "path, bdpt (bidirectional) or light")
         ->check(CLI::IsMember(integrators))
+        ->capture_default_str();
+    command
+        .add_option("--builder", options.builder,
+                    "Of the tree that rays go through; changes no bit of the picture")
+        ->check(CLI::IsMember(builder_names()))
         ->capture_default_str();
     command.add_option("--heuristic", options.heuristic, "Weights of bdpt: balance or power")
         ->check(CLI::IsMember(heuristics))
@@ -111,6 +117,11 @@ void check(const RenderCommand& options)
 ref::Integrator integrator_of(const RenderCommand& options)
 {
     return integrators.at(options.integrator);
+}
+
+ref::Builder builder_of(const RenderCommand& options)
+{
+    return builder_named(options.builder);
 }
 
 ref::RenderOptions render_options(const RenderCommand& options)

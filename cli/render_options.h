@@ -24,6 +24,7 @@ struct RenderCommand {
     std::uint32_t batch_size = 4;
     unsigned threads = std::max(1U, std::thread::hardware_concurrency());
     std::string integrator = "path";
+    std::string builder = "sah-leaf";
     std::string heuristic = "balance";
     int max_edges = ref::unlimited_edges;
     bool no_roulette = false;
@@ -48,8 +49,10 @@ void check(const RenderCommand& options);
 
 ref::Integrator integrator_of(const RenderCommand& options);
 ref::RenderOptions render_options(const RenderCommand& options);
+ref::Builder builder_of(const RenderCommand& options);
 
-/// Everything that shapes the picture, and so must be the same for one render to go on from another.
+/// Everything that shapes the picture, and so must be the same for one render to go on from another: not
+/// the threads and not the builder of the tree, which change no bit.
 golden::Metadata describe(const RenderCommand& options, const scenes::Scene& scene);
 
 /// The film to start from: that of the file to resume, or an empty one. Throws std::invalid_argument or

@@ -22,8 +22,8 @@ struct World {
     Emitters emitters;
     Camera camera;
 
-    World(const scenes::Scene& source, int width, int height)
-        : scene(source), geometry(source), emitters(geometry),
+    World(const scenes::Scene& source, int width, int height, Builder builder = Builder::sah_leaf)
+        : scene(source), geometry(source, builder), emitters(geometry),
           camera(source.camera.value(), width, height)
     {}
     World(const World&) = delete; // its parts refer to each other

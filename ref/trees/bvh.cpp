@@ -31,18 +31,11 @@ void check(std::span<const Aabb> boxes)
 /// Codes, sorted; from them the radix tree; from the boxes of the primitives all others.
 Tree build_lbvh(std::span<const Aabb> boxes, int bits_per_axis)
 {
-    const std::vector<std::uint64_t> unsorted = morton_codes(boxes, bits_per_axis);
-    std::vector<CodedPrimitive> coded(boxes.size());
-    for (std::uint32_t i = 0; i < coded.size(); ++i) coded[i] = {unsorted[i], i};
-    radix_sort(coded, 3 * bits_per_axis);
-
-    std::vector<std::uint64_t> codes(boxes.size());
+    std::vector<std::uint64_t> codes = morton_codes(boxes, bits_per_axis);
     Tree tree;
     tree.primitives.resize(boxes.size());
-    for (std::size_t i = 0; i < coded.size(); ++i) {
-        codes[i] = coded[i].code;
-        tree.primitives[i] = coded[i].primitive;
-    }
+    std::iota(tree.primitives.begin(), tree.primitives.end(), 0);
+    radix_sort(codes, tree.primitives, 3 * bits_per_axis);
     tree.nodes = radix_tree(codes);
     tree.leaf_begin.resize(boxes.size() + 1);
     std::iota(tree.leaf_begin.begin(), tree.leaf_begin.end(), 0);

@@ -9,30 +9,32 @@
 
 namespace ref {
 
-/// A Morton code and the primitive it belongs to.
-struct CodedPrimitive {
-    std::uint64_t code;
-    std::uint32_t primitive;
-};
-
-/// Sorts by code. Only the lowest `code_bits` bits may be set.
-inline void radix_sort(std::vector<CodedPrimitive>& items, int code_bits)
+/// Sorts `codes`, and takes `primitives` along: the two stay paired. Only the lowest `code_bits` bits of
+/// a code may be set.
+inline void radix_sort(std::vector<std::uint64_t>& codes, std::vector<std::uint32_t>& primitives,
+                       int code_bits)
 {
     constexpr int digit_bits = 11; // 2^11 counters and write positions stay in the first-level cache
     constexpr std::size_t digits = std::size_t{1} << digit_bits;
-    std::vector<CodedPrimitive> sorted(items.size());
+    std::vector<std::uint64_t> sorted_codes(codes.size());
+    std::vector<std::uint32_t> sorted_primitives(codes.size());
     for (int shift = 0; shift < code_bits; shift += digit_bits) {
-        const auto digit = [&](const CodedPrimitive& item) { return item.code >> shift & (digits - 1); };
+        const auto digit = [&](std::uint64_t code) { return code >> shift & (digits - 1); };
         std::array<std::size_t, digits> begin{};
-        for (const CodedPrimitive& item : items) ++begin[digit(item)];
+        for (const std::uint64_t code : codes) ++begin[digit(code)];
         std::size_t sum = 0;
-        for (std::size_t& count : begin) { // from counts to where each digit's items begin
+        for (std::size_t& count : begin) { // from counts to where each digit's codes begin
             const std::size_t first = sum;
             sum += count;
             count = first;
         }
-        for (const CodedPrimitive& item : items) sorted[begin[digit(item)]++] = item;
-        items.swap(sorted);
+        for (std::size_t i = 0; i < codes.size(); ++i) {
+            const std::size_t place = begin[digit(codes[i])]++;
+            sorted_codes[place] = codes[i];
+            sorted_primitives[place] = primitives[i];
+        }
+        codes.swap(sorted_codes);
+        primitives.swap(sorted_primitives);
     }
 }
 

@@ -7,12 +7,14 @@
 // tested per ray. Where Embree is installed its fast builder stands beside ours as a yardstick of the
 // machine.
 
+#include "cli/builders.h"
 #include "ref/transport/random.h"
 #include "ref/transport/sampling.h"
 #include "ref/trees/geometry.h"
 #include "ref/trees/quality.h"
 #include "scenes/bounds.h"
 #include "scenes/read_scene.h"
+#include "tests/bench/build_steps.h"
 #include "tests/bench/embree.h"
 
 #include <benchmark/benchmark.h>
@@ -25,15 +27,6 @@ namespace {
 
 using ref::Builder;
 using ref::Vec3;
-
-struct NamedBuilder {
-    const char* name;
-    Builder builder;
-};
-
-constexpr std::array builders = {
-    NamedBuilder{"morton30", Builder::morton30}, NamedBuilder{"morton63", Builder::morton63},
-    NamedBuilder{"sah", Builder::sah}, NamedBuilder{"sah-leaf", Builder::sah_leaf}};
 
 /// About `triangles` triangles of a sphere with bumps, in random order: no builder profits from the
 /// file's.
@@ -123,7 +116,7 @@ void register_scene(const std::shared_ptr<const scenes::Scene>& scene)
         benchmark::RegisterBenchmark((what + "/" + scene->name + "/" + who).c_str(), function)
             ->Unit(benchmark::kMillisecond);
     };
-    for (const NamedBuilder& named : builders) {
+    for (const cli::NamedBuilder& named : cli::builders) {
         const Builder builder = named.builder;
         add("build", named.name, [=](benchmark::State& state) { build_tree(state, *scene, builder); });
         add("camera", named.name,
@@ -131,6 +124,11 @@ void register_scene(const std::shared_ptr<const scenes::Scene>& scene)
         add("diffuse", named.name,
             [=](benchmark::State& state) { trace_rays(state, *scene, builder, rays->diffuse); });
     }
+    const auto boxes = std::make_shared<const std::vector<ref::Aabb>>(ref::primitive_bounds(*scene));
+    for (const bench::Step& step : bench::lbvh_steps(*boxes))
+        add("morton30-step", step.name, [boxes, step](benchmark::State& state) {
+            for (auto _ : state) step.run();
+        });
     if constexpr (bench::have_embree) {
         add("build", "embree-low", [=](benchmark::State& state) { bench::embree_build(state, *scene); });
         add("camera", "embree-low",

@@ -171,6 +171,25 @@ TEST(Render, ThreadsChangeNoByteOfAFile)
     }
 }
 
+TEST(Render, TheBuilderOfTheTreeChangesNoByteOfAFileAndAnotherOneMayGoOn)
+{
+    const TemporaryFolder folder;
+    const auto rendered = [&](const std::string& name, const std::string& samples,
+                              const Arguments& more) {
+        const auto path = folder / (name + ".exr");
+        const Outcome outcome = run(render("cornell_glass", path, more,
+                                           {"--size", "24x16", "-s", samples, "--integrator", "bdpt"}));
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return read_bytes(path);
+    };
+    const std::string expected = rendered("unnamed", "8", {});
+    EXPECT_GT(expected.size(), 1000u);
+    for (const char* builder : {"morton30", "morton63", "sah", "sah-leaf"})
+        EXPECT_TRUE(expected == rendered(builder, "8", {"--builder", builder})) << builder;
+    EXPECT_FALSE(expected == rendered("resumed", "4", {"--builder", "morton30"}));
+    EXPECT_TRUE(expected == rendered("resumed", "8", {"--builder", "sah", "--resume"}));
+}
+
 TEST(Render, ASeedRepeatsItsNoiseAndAnotherMakesOther)
 {
     const TemporaryFolder folder;

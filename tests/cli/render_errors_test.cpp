@@ -83,6 +83,7 @@ const std::vector<Mistake> mistakes = {
     {"NegativeEdges", {"render", "SCENE", "-o", "OUT", "--max-edges", "-3"}, "--max-edges"},
     {"EndlessPaths", {"render", "SCENE", "-o", "OUT", "--no-roulette"}, "--max-edges"},
     {"UnknownIntegrator", {"render", "SCENE", "-o", "OUT", "--integrator", "magic"}, "--integrator"},
+    {"UnknownBuilder", {"render", "SCENE", "-o", "OUT", "--builder", "magic"}, "--builder"},
     {"SeedNegative", {"render", "SCENE", "-o", "OUT", "--seed", "-1"}, "--seed"},
     {"SeedBeyond64Bits", {"render", "SCENE", "-o", "OUT", "--seed", "18446744073709551616"}, "--seed"},
     {"ExposureInWords", {"render", "SCENE", "-o", "OUT", "--exposure", "bright"}, "--exposure"},

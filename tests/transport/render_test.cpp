@@ -1,3 +1,4 @@
+#include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 #include "ref/transport/render.h"
 #include "tests/transport/scene_files.h"
@@ -47,6 +48,28 @@ TEST(Render, DoesNotDependOnTheNumberOfThreads)
         const golden::Film one = rendered(integrator, 3, 1);
         EXPECT_EQ(one, rendered(integrator, 3, 2));
         EXPECT_EQ(one, rendered(integrator, 3, 7));
+    }
+}
+
+// Every triangle of the room twice, the copies in red and in reverse order: each ray that finds a wall
+// has two nearest hits, and the picture shows which one counts.
+TEST(Render, DoesNotDependOnTheBuilderOfTheTreeEvenWhereTwoHitsAreEquallyFar)
+{
+    scenes::Scene doubled = scene();
+    const auto red = static_cast<std::uint32_t>(doubled.materials.size());
+    doubled.materials.emplace_back(scenes::Lambertian{Rgb(0.9, 0.1, 0.1)});
+    for (std::size_t i = scene().triangles.size(); i-- > 0;)
+        doubled.triangles.push_back({scene().triangles[i].vertices, red});
+    const auto rendered_by = [&](ref::Builder builder, ref::Integrator integrator) {
+        const ref::World world(doubled, width, height, builder);
+        golden::Film film(width, height);
+        EXPECT_TRUE(ref::render(world, integrator, {{.seed = 11}, 2, 2, 2}, film));
+        return film;
+    };
+    for (const auto integrator : {ref::trace_path, ref::trace_bidirectionally}) {
+        const golden::Film expected = rendered_by(ref::Builder::sah_leaf, integrator);
+        for (const auto builder : {ref::Builder::morton30, ref::Builder::morton63, ref::Builder::sah})
+            EXPECT_EQ(expected, rendered_by(builder, integrator));
     }
 }
 

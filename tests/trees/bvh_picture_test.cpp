@@ -54,6 +54,33 @@ TEST(DrawBoxes, DrawsTheRootAtLevelZeroAndItsChildrenAtLevelOne)
     }
 }
 
+TEST(DrawOrder, GivesEachPieceOfTheListItsColour)
+{
+    const scenes::Scene scene = two_specks();
+    const ref::Geometry geometry(scene, ref::Builder::morton30);
+    // How far the colours half way up both triangles are from each other, at places that mirror each
+    // other.
+    const auto difference = [&](std::size_t pieces) {
+        const golden::Image image = cli::draw_order(geometry, pieces, 200, 100);
+        EXPECT_EQ(image.pixels[50 * 200 + 100], golden::Rgb(0.9)); // the ground between them
+        return glm::length(image.pixels[50 * 200 + 50] - image.pixels[50 * 200 + 149]);
+    };
+    EXPECT_NEAR(difference(1), 0, 1e-14); // but for roundings of the shading: tens of ulps
+    EXPECT_GT(difference(2), 0.1);
+}
+
+TEST(DrawVisits, IsBrighterWhereARayEntersMoreBoxes)
+{
+    const scenes::Scene scene = two_specks();
+    const ref::Geometry geometry(scene, ref::Builder::morton30);
+    const auto colour_at = [&](int x) {
+        return cli::draw_visits(geometry, 3, 200, 100).pixels[static_cast<std::size_t>(50 * 200 + x)];
+    };
+    EXPECT_EQ(colour_at(10), golden::Rgb(0));        // beside the root's box
+    EXPECT_EQ(colour_at(100), golden::Rgb(1, 0, 0)); // the root's alone
+    EXPECT_EQ(colour_at(50), golden::Rgb(1, 1, 0));  // and a leaf's
+}
+
 TEST(DrawBoxes, OfAnEmptySceneDrawsNothing)
 {
     scenes::Scene scene = two_specks();

@@ -166,17 +166,19 @@ RC_GTEST_PROP(RadixSort, IsAStableSort, ())
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const int bits = *rc::gen::element(5, 11, 30, 63);
     const std::size_t n = *rc::gen::inRange<std::size_t>(0, 1000);
-    std::vector<ref::CodedPrimitive> items;
-    for (std::uint32_t i = 0; i < n; ++i) items.push_back({random.bits() >> (64 - bits), i});
-    for (std::size_t i = 0; i < n / 2; ++i) items[random.below(n)].code = items[random.below(n)].code;
-    auto expected = items;
-    std::stable_sort(expected.begin(), expected.end(),
-                     [](const auto& a, const auto& b) { return a.code < b.code; });
-    radix_sort(items, bits);
-    for (std::size_t i = 0; i < n; ++i) {
-        RC_ASSERT(items[i].code == expected[i].code);
-        RC_ASSERT(items[i].primitive == expected[i].primitive);
+    std::vector<std::uint64_t> codes;
+    std::vector<std::uint32_t> primitives;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> expected;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const bool again = i > 0 && random.below(2) == 0; // equal codes show whether it is stable
+        codes.push_back(again ? codes[random.below(i)] : random.bits() >> (64 - bits));
+        primitives.push_back(static_cast<std::uint32_t>(n) - i);
+        expected.emplace_back(codes[i], primitives[i]);
     }
+    std::stable_sort(expected.begin(), expected.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    ref::radix_sort(codes, primitives, bits);
+    for (std::size_t i = 0; i < n; ++i) RC_ASSERT(std::pair(codes[i], primitives[i]) == expected[i]);
 }
 
 } // namespace
