@@ -5,7 +5,7 @@
 //
 //   R G B                            mean
 //   se.R se.G se.B                   standard error of the mean
-//   NAME.R NAME.G NAME.B             a further picture, "s2t3" for example
+//   NAME.R NAME.G NAME.B             a further picture, "s2t3" for example; some in 16-bit halves
 //   state.mean.R.hi state.mean.R.lo  the film's mean and sum of squared deviations ("state.squares..."),
 //                                    each double as two 32-bit words: lossless, as no float is
 //   attribute plumbline.KEY          metadata, as a string
@@ -28,9 +28,11 @@ using Layers = std::map<std::string, Image>;
 enum class FilmState { keep, omit };
 
 /// Writes the film as ZIP-compressed EXR (see the head of this file), values rounded to float but for
-/// the state. Throws ImageError, and std::invalid_argument for layers that break the rules above.
+/// the state, and to 16 bits in `half_layers`. Throws ImageError, and std::invalid_argument for layers
+/// that break the rules above.
 void write_exr(const std::filesystem::path& path, const Film& film, const Metadata& metadata,
-               const Layers& layers = {}, FilmState state = FilmState::keep);
+               const Layers& layers = {}, FilmState state = FilmState::keep,
+               const Layers& half_layers = {});
 
 struct ExrPicture {
     Image mean;

@@ -10,6 +10,7 @@
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <half.h>
 
 #include <deque>
 #include <stdexcept>
@@ -63,6 +64,17 @@ public:
         }
     }
 
+    void add_half_layer(const std::string& name, const Image& image)
+    {
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            auto& values = halves_.emplace_back();
+            values.reserve(image.pixels.size());
+            for (const Rgb& pixel : image.pixels)
+                values.emplace_back(static_cast<float>(pixel[static_cast<int>(channel)]));
+            add(channel_name(name, channel), Imf::HALF, values.data());
+        }
+    }
+
     void add_exact(const std::string& name, const Image& image)
     {
         for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -102,6 +114,7 @@ private:
     Imf::Header header_;
     Imf::FrameBuffer buffer_;
     std::deque<std::vector<float>> floats_; // a deque's elements stay where they are
+    std::deque<std::vector<half>> halves_;
     std::deque<std::vector<std::uint32_t>> words_;
 };
 
@@ -128,17 +141,22 @@ void add_metadata(const fs::path& path, Imf::Header& header, const Metadata& met
 } // namespace
 
 void write_exr(const fs::path& path, const Film& film, const Metadata& metadata, const Layers& layers,
-               FilmState state)
+               FilmState state, const Layers& half_layers)
 {
     const Image& mean = film.mean();
     check_size(path, mean);
     for (const auto& [name, layer] : layers) check_layer(name, layer, mean);
+    for (const auto& [name, layer] : half_layers) {
+        check_layer(name, layer, mean);
+        if (layers.contains(name)) throw std::invalid_argument("two layers are called '" + name + "'");
+    }
     std::string bytes;
     try {
         Channels channels(mean.width, mean.height);
         channels.add_layer("", mean);
         channels.add_layer(standard_error_layer, film.standard_error());
         for (const auto& [name, layer] : layers) channels.add_layer(name, layer);
+        for (const auto& [name, layer] : half_layers) channels.add_half_layer(name, layer);
         if (state == FilmState::keep) {
             channels.add_exact(mean_state, mean);
             channels.add_exact(squares_state, film.squares());

@@ -1,0 +1,145 @@
+#pragma once
+
+// Is this picture right? A candidate is judged against a golden, with a known chance of a false alarm,
+// and says what it could have seen. docs/comparison.md explains each step.
+
+#include "golden/functionals.h"
+#include "golden/golden.h"
+#include "golden/image.h"
+#include "golden/statistics.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace golden {
+
+enum class Verdict { pass, fail, inconclusive };
+std::string describe(Verdict verdict); // "PASS", "FAIL", "INCONCLUSIVE"
+
+/// What is known of the candidate's noise, and so how means are compared.
+enum class Method {
+    ranks,  // same estimator, same batch size: batches are distributed alike. Mann-Whitney
+    welch,  // another estimator, of which there are several independent pictures. Welch's t
+    picture // a single picture with a stated number of samples. Welch's t with an assumed noise
+};
+std::string describe(Method method);
+
+struct CompareOptions {
+    double accuse = 0.01;         // chance that a right picture's first stage finds something to confirm
+    double confirm = 1e-5;        // level of each later stage, at which one suspicion alone is tested
+    double convict = 1e-8;        // level at which one stage is enough for FAIL
+    double specification = 0.005; // relative error of the whole picture that must be detectable to pass
+    double power = 0.99;          // with this probability
+    double confidence = 0.99;     // of the intervals of ratios
+    double rounding = 2e-6;       // relative difference that is put down to single precision
+    double skewness = 0.15;       // |skewness| / sqrt(batches) up to which a t test is believed
+    std::vector<std::uint64_t> stages = {64, 256}; // batches of each
+};
+
+/// The batches of one stage of a candidate, seen through a golden's functionals, which must outlive it.
+class Candidate {
+public:
+    explicit Candidate(const Functionals& functionals);
+
+    /// Adds one batch: for Method::ranks the mean of as many samples as the golden's batches are, else
+    /// one of several independent pictures, each equally good. Throws std::invalid_argument if its size
+    /// differs from the golden's or a pixel is NaN or infinite; the message names no file.
+    void add_batch(const Image& batch);
+
+    [[nodiscard]] std::uint64_t batches() const { return film_.batches(); }
+    [[nodiscard]] const Film& film() const { return film_; }
+    [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+    [[nodiscard]] const Functionals& functionals() const { return *functionals_; }
+
+private:
+    const Functionals* functionals_;
+    Film film_;
+    std::vector<Row> rows_;
+};
+
+/// What the first stage says about one region, seen through one weight in one channel.
+struct Finding {
+    Region region;
+    Weight weight;
+    std::size_t functional; // its number among the golden's functionals
+    std::size_t channel;    // 0 red, 1 green, 2 blue
+    bool conclusive;        // false: too skewed for a t test. It then counts for nothing
+    TestResult test;        // z > 0: the candidate is brighter
+    double adjusted_p;      // Bonferroni over channels, families and the members of the family
+    double ratio;           // candidate / golden, of the functional's values; NaN where the golden is 0
+    Interval interval;      // of the ratio
+    double detectable;      // smallest relative error found with the stated power; NaN if not defined
+};
+
+/// "green of tile x 16..31, y 0..15 (matched)"
+std::string describe(const Finding& finding);
+
+/// One stage, and what it said about the suspicion: the finding with the smallest adjusted p-value.
+struct Stage {
+    std::uint64_t batches;
+    double p;     // first stage: the smallest adjusted p; later: one-sided, of that functional alone
+    double level; // the suspicion stands if p < level
+};
+
+struct Comparison {
+    Verdict verdict = Verdict::inconclusive;
+    std::string reason; // one or two sentences
+    Method method = Method::ranks;
+    double p = 1.0; // the smallest adjusted p of the first stage
+    std::vector<Finding> findings;
+    std::optional<std::size_t> suspicion; // of `findings`: the smallest p, whether it stands or not
+    std::vector<Stage> stages;
+    /// Smallest detectable relative error of the whole picture, per channel, at the first stage; NaN for
+    /// a channel in which the golden is black.
+    std::array<double, 3> detectable{};
+    /// The finding of the stratum in which the smallest detectable error is largest.
+    std::optional<std::size_t> blindest_stratum;
+    double coverage = 1.0; // share of the findings that are conclusive
+    /// Method::picture: the variance that the picture shows between neighbouring pixels over the one
+    /// assumed, in the whole picture.
+    std::optional<double> noise_ratio;
+    std::uint64_t golden_batches = 0; // those that the candidate was compared with
+};
+
+/// The finding of the whole picture in this channel, plainly weighed: its ratio is that of the means.
+const Finding& whole_picture(const Comparison& comparison, std::size_t channel);
+
+/// The fine tiles' z in one channel, matched weights: row by row, `columns` a row; NaN if inconclusive.
+struct TileMap {
+    int columns = 0, rows = 0;
+    std::vector<double> z;
+};
+TileMap tile_map(const Comparison& comparison, std::size_t channel);
+
+/// Throws std::invalid_argument if the two cannot be compared by this method: different scene hashes,
+/// for Method::ranks different batch sizes, integrators' parameters, or the golden's own seed. What a
+/// candidate does not say about itself is not checked.
+void check_comparable(const Golden& golden, const Metadata& candidate, Method method);
+
+/// Judges by what there is: one stage. A suspicion that no further stage can confirm or clear makes
+/// INCONCLUSIVE, unless it is beyond doubt. Method::ranks or Method::welch; the latter needs two batches
+/// at least and throws std::invalid_argument for fewer.
+Comparison compare(const Golden& golden, const Candidate& candidate, Method method,
+                   const CompareOptions& options = {});
+
+/// Renders `batches` batches into an empty candidate, with random numbers that no other stage used.
+using RenderStage = std::function<void(std::size_t stage, std::uint64_t batches, Candidate& candidate)>;
+
+/// Judges in stages: a suspicion of the first is tested again on fresh renders, and it takes all of them
+/// to fail.
+Comparison compare(const Golden& golden, const RenderStage& render, Method method,
+                   const CompareOptions& options = {});
+
+/// Judges a single picture, said to be the mean of `samples` samples per pixel. Its noise is taken to be
+/// that of the golden's estimator, or what it shows between neighbouring pixels, whichever is larger:
+/// see noise_ratio. The golden's metadata must have a batch_size. Throws std::invalid_argument as
+/// Candidate::add_batch, and for samples that are not positive.
+Comparison compare_picture(const Golden& golden, const Image& picture, double samples,
+                           const CompareOptions& options = {});
+
+} // namespace golden

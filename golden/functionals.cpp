@@ -1,0 +1,317 @@
+#include "golden/functionals.h"
+
+#include <glm/geometric.hpp>
+#include <half.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace golden {
+
+namespace {
+
+constexpr std::size_t strata = 16;
+constexpr std::size_t channels = 3;
+
+double luminance(const Rgb& color)
+{
+    return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b; // Rec.709
+}
+
+/// A call, so that it is done: g++ 12.2 at -O2 takes a pair of conversions double-float-double in vector
+/// registers for nothing, and drops it.
+[[gnu::noinline]] float to_float(double value)
+{
+    return static_cast<float>(value);
+}
+
+double rounded_to_half(double value)
+{
+    constexpr double largest = HALF_MAX;
+    return static_cast<double>(static_cast<float>(half(to_float(std::clamp(value, -largest, largest)))));
+}
+
+/// The variance of a batch that a pixel is given at least. A pilot of n batches that has seen nothing
+/// vary says with 95% confidence only that whatever it missed is rarer than 3 in n (the rule of three);
+/// something of the size of the mean, that often, would be a variance of 3 m^2 / n.
+double batch_variance(double mean, double noise, std::uint64_t batches)
+{
+    return mean * mean * std::max(noise * noise, 3.0 / static_cast<double>(batches));
+}
+
+/// For each pixel the stratum, of `strata` equally large ones by ascending `key`; equal keys in the
+/// order of the pixels.
+std::vector<std::uint32_t> stratify(const std::vector<double>& key)
+{
+    std::vector<std::size_t> order(key.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return key[a] < key[b]; });
+    std::vector<std::uint32_t> stratum(key.size());
+    const std::size_t count = std::min(strata, key.size());
+    for (std::size_t rank = 0; rank < order.size(); ++rank)
+        stratum[order[rank]] = static_cast<std::uint32_t>(rank * count / order.size());
+    return stratum;
+}
+
+} // namespace
+
+std::string describe(const Region& region)
+{
+    switch (region.kind) {
+    case RegionKind::whole:
+        return "the whole picture";
+    case RegionKind::coarse_tile:
+    case RegionKind::fine_tile:
+        return "tile x " + std::to_string(region.x0) + ".." + std::to_string(region.x1 - 1) + ", y " +
+               std::to_string(region.y0) + ".." + std::to_string(region.y1 - 1);
+    case RegionKind::luminance:
+        return "luminance stratum " + std::to_string(region.index + 1) + " of 16";
+    case RegionKind::noise:
+        return "noise stratum " + std::to_string(region.index + 1) + " of 16";
+    }
+    return "";
+}
+
+std::string describe(Weight weight)
+{
+    switch (weight) {
+    case Weight::matched:
+        return "matched";
+    case Weight::plain:
+        return "plain";
+    case Weight::bounded:
+        return "bounded";
+    }
+    return "";
+}
+
+Pilot make_pilot(const Film& film)
+{
+    if (film.batches() < 2) throw std::invalid_argument("a pilot needs two batches at least");
+    Pilot pilot{film.mean(), Image(film.mean().width, film.mean().height), film.batches()};
+    for (std::size_t i = 0; i < pilot.mean.pixels.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel) {
+            double& mean = pilot.mean.pixels[i][channel];
+            mean = static_cast<double>(to_float(mean));
+            const double variance =
+                film.squares().pixels[i][channel] / static_cast<double>(film.batches() - 1);
+            if (mean > 0.0) pilot.noise.pixels[i][channel] = rounded_to_half(std::sqrt(variance) / mean);
+        }
+    return pilot;
+}
+
+Functionals::Functionals(Pilot pilot) : pilot_(std::move(pilot))
+{
+    const Image& mean = pilot_.mean;
+    if (mean.pixels.empty() || mean.width != pilot_.noise.width || mean.height != pilot_.noise.height)
+        throw std::invalid_argument("pilot: mean and noise are empty or differ in size");
+    if (first_non_finite(mean) || first_non_finite(pilot_.noise))
+        throw std::invalid_argument("pilot: a pixel is NaN or infinite");
+    if (pilot_.batches < 1) throw std::invalid_argument("pilot: no batches");
+    lay_out_regions();
+    weigh();
+}
+
+void Functionals::lay_out_regions()
+{
+    const int w = width();
+    const int h = height();
+    const std::size_t pixels = pilot_.mean.pixels.size();
+    regions_.push_back({RegionKind::whole, 0, 0, 0, w, h, pixels});
+    fine_side_ = (std::max(w, h) + 7) / 8;
+    const auto add_tiles = [&](RegionKind kind, int side) {
+        int index = 0;
+        for (int y = 0; y < h; y += side)
+            for (int x = 0; x < w; x += side) {
+                const int x1 = std::min(w, x + side);
+                const int y1 = std::min(h, y + side);
+                regions_.push_back(
+                    {kind, index++, x, y, x1, y1, static_cast<std::size_t>((x1 - x) * (y1 - y))});
+            }
+        return (w + side - 1) / side;
+    };
+    first_coarse_ = regions_.size();
+    coarse_columns_ = add_tiles(RegionKind::coarse_tile, 2 * fine_side_);
+    first_fine_ = regions_.size();
+    fine_columns_ = add_tiles(RegionKind::fine_tile, fine_side_);
+
+    std::vector<double> by_luminance(pixels);
+    std::vector<double> by_noise(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const Rgb& m = pilot_.mean.pixels[i];
+        by_luminance[i] = luminance(m);
+        const double sum = m.r + m.g + m.b;
+        const Rgb deviation = pilot_.noise.pixels[i] * m;
+        by_noise[i] = sum > 0.0 ? glm::dot(deviation, deviation) / (sum * sum) : 0.0;
+    }
+    const auto add_strata = [&](RegionKind kind, const std::vector<std::uint32_t>& stratum) {
+        const std::size_t first = regions_.size();
+        for (std::size_t i = 0; i < std::min(strata, pixels); ++i)
+            regions_.push_back({kind, static_cast<int>(i), 0, 0, w, h, 0});
+        for (const std::uint32_t s : stratum) ++regions_[first + s].pixels;
+        return first;
+    };
+    const std::vector<std::uint32_t> luminance_of = stratify(by_luminance);
+    const std::vector<std::uint32_t> noise_of = stratify(by_noise);
+    first_luminance_ = add_strata(RegionKind::luminance, luminance_of);
+    first_noise_ = add_strata(RegionKind::noise, noise_of);
+    places_.resize(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const int x = static_cast<int>(i % static_cast<std::size_t>(w));
+        const int y = static_cast<int>(i / static_cast<std::size_t>(w));
+        const auto tile = static_cast<std::size_t>(y / fine_side_ * fine_columns_ + x / fine_side_);
+        places_[i] = {static_cast<std::uint32_t>(first_fine_ + tile),
+                      static_cast<std::uint32_t>(first_luminance_ + luminance_of[i]),
+                      static_cast<std::uint32_t>(first_noise_ + noise_of[i])};
+    }
+}
+
+void Functionals::sum_up(Sums& sums) const
+{
+    const auto add = [](std::array<double, 3>& to, const std::array<double, 3>& from) {
+        for (std::size_t w = 0; w < 3; ++w) to[w] += from[w];
+    };
+    for (std::size_t tile = 0; tile < first_luminance_ - first_fine_; ++tile) {
+        const auto columns = static_cast<std::size_t>(fine_columns_);
+        const std::size_t coarse =
+            tile / columns / 2 * static_cast<std::size_t>(coarse_columns_) + tile % columns / 2;
+        add(sums[first_coarse_ + coarse], sums[first_fine_ + tile]);
+    }
+    for (std::size_t tile = first_coarse_; tile < first_fine_; ++tile) add(sums[0], sums[tile]);
+}
+
+/// terms(pixel) are the pixel's contributions by weight.
+template <class PixelTerms>
+Functionals::Sums Functionals::sum_over_regions(const PixelTerms& terms) const
+{
+    Sums sums(regions_.size(), {0.0, 0.0, 0.0});
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        const std::array<double, 3> term = terms(i);
+        for (std::size_t w = 0; w < 3; ++w) {
+            sums[places_[i].fine][w] += term[w];
+            sums[places_[i].luminance][w] += term[w];
+            sums[places_[i].noise][w] += term[w];
+        }
+    }
+    sum_up(sums);
+    return sums;
+}
+
+void Functionals::weigh()
+{
+    const std::vector<Rgb>& mean = pilot_.mean.pixels;
+    matched_.assign(mean.size(), Rgb(0.0));
+    std::vector<Rgb> variance(mean.size(), Rgb(0.0));
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            if (!(mean[i][c] > 0.0)) continue;
+            variance[i][c] = batch_variance(mean[i][c], pilot_.noise.pixels[i][c], pilot_.batches);
+            matched_[i][c] = mean[i][c] / variance[i][c];
+            // A mean so small that its square is 0 weighs nothing.
+            if (!std::isfinite(matched_[i][c])) matched_[i][c] = 0.0;
+        }
+    for (std::size_t channel = 0; channel < channels; ++channel) {
+        const auto c = static_cast<int>(channel);
+        const Sums means = sum_over_regions([&](std::size_t i) -> std::array<double, 3> {
+            return {matched_[i][c] * mean[i][c], mean[i][c], 0.5};
+        });
+        const Sums variances = sum_over_regions([&](std::size_t i) -> std::array<double, 3> {
+            const double w = matched_[i][c];
+            // To first order c / (c + m) has a quarter of the relative variance; being between 0 and 1,
+            // at most 1/4.
+            const double relative = mean[i][c] > 0.0 ? variance[i][c] / (mean[i][c] * mean[i][c]) : 0.0;
+            return {w * w * variance[i][c], variance[i][c], std::min(0.25, relative / 16.0)};
+        });
+        standards_[channel].clear();
+        for (std::size_t r = 0; r < regions_.size(); ++r)
+            for (std::size_t w = 0; w < 3; ++w) {
+                const double sum = means[r][w];
+                const bool relative = is_linear(weights[w]) && sum > 0.0;
+                Standard standard{1.0, 0.0, 1.0};
+                if (relative) standard = {1.0 / sum, 1.0, std::sqrt(variances[r][w]) / sum};
+                if (!is_linear(weights[w])) {
+                    const auto n = static_cast<double>(regions_[r].pixels);
+                    standard = {1.0 / n, sum / n, std::sqrt(variances[r][w]) / n};
+                }
+                if (!std::isfinite(standard.scale)) standard = {1.0, 0.0, 1.0};
+                if (!(standard.spread > 0.0) || !std::isfinite(standard.spread)) standard.spread = 1.0;
+                standards_[channel].push_back(standard);
+            }
+    }
+}
+
+Functional Functionals::at(std::size_t functional) const
+{
+    return {functional / weights.size(), weights[functional % weights.size()]};
+}
+
+double Functionals::expected(std::size_t functional, std::size_t channel) const
+{
+    return standards_[channel][functional].expected;
+}
+
+double Functionals::spread(std::size_t functional, std::size_t channel) const
+{
+    return standards_[channel][functional].spread;
+}
+
+Row Functionals::evaluate(const Image& batch) const
+{
+    if (batch.width != width() || batch.height != height() ||
+        batch.pixels.size() != pilot_.mean.pixels.size())
+        throw std::invalid_argument("has " + std::to_string(batch.width) + "x" +
+                                    std::to_string(batch.height) + " pixels, the golden " +
+                                    std::to_string(width()) + "x" + std::to_string(height()));
+    if (const auto place = first_non_finite(batch))
+        throw std::invalid_argument("pixel (" + std::to_string(place->x) + ", " +
+                                    std::to_string(place->y) + ") is NaN or infinite");
+    Row row;
+    row.reserve(channels * size());
+    for (std::size_t channel = 0; channel < channels; ++channel) {
+        const auto c = static_cast<int>(channel);
+        const Sums sums = sum_over_regions([&](std::size_t i) -> std::array<double, 3> {
+            const double value = batch.pixels[i][c];
+            const double light = std::max(0.0, value);
+            const double m = std::max(0.0, pilot_.mean.pixels[i][c]);
+            // Where the pilot is black, black is in the middle: it is what is expected there.
+            const double bounded = light + m > 0.0 ? light / (light + m) : 0.5;
+            return {matched_[i][c] * value, value, bounded};
+        });
+        for (std::size_t f = 0; f < size(); ++f) {
+            const Standard& standard = standards_[channel][f];
+            const double value = standard.scale * sums[f / weights.size()][f % weights.size()];
+            row.push_back(
+                static_cast<float>(rounded_to_half((value - standard.expected) / standard.spread)));
+        }
+    }
+    return row;
+}
+
+bool Functionals::contains(const Region& region, std::size_t pixel) const
+{
+    const auto r = static_cast<std::size_t>(&region - regions_.data());
+    const int x = static_cast<int>(pixel % static_cast<std::size_t>(width()));
+    const int y = static_cast<int>(pixel / static_cast<std::size_t>(width()));
+    switch (region.kind) {
+    case RegionKind::luminance:
+        return places_[pixel].luminance == r;
+    case RegionKind::noise:
+        return places_[pixel].noise == r;
+    default:
+        return x >= region.x0 && x < region.x1 && y >= region.y0 && y < region.y1;
+    }
+}
+
+double Functionals::pixel_weight(std::size_t functional, std::size_t channel, std::size_t pixel) const
+{
+    const auto [region, weight] = at(functional);
+    if (!is_linear(weight) || !contains(regions_[region], pixel)) return 0.0;
+    const double scale = standards_[channel][functional].scale;
+    return weight == Weight::matched ? scale * matched_[pixel][static_cast<int>(channel)] : scale;
+}
+
+} // namespace golden

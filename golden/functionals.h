@@ -1,0 +1,134 @@
+#pragma once
+
+// A picture in a few hundred numbers per channel: weighted means over regions. Batches of pictures are
+// compared through these numbers, not pixel by pixel, because a small error everywhere is invisible in
+// any one pixel and plain in a mean.
+//
+// Regions and weights are chosen by looking at a pilot: some batches of the golden that are used for
+// nothing else, so that the choice cannot depend on the noise that is then judged.
+
+#include "golden/image.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace golden {
+
+enum class RegionKind {
+    whole,
+    coarse_tile, // a square of a quarter of the longer side
+    fine_tile,   // a square of an eighth of the longer side: 16x16 pixels of 128x128
+    luminance,   // a stratum: a sixteenth of the pixels, from the darkest to the brightest
+    noise        // a stratum: a sixteenth of the pixels, by relative variance v / m^2
+};
+
+struct Region {
+    RegionKind kind;
+    int index;          // within its kind: row by row, or from the lowest stratum
+    int x0, y0, x1, y1; // x0 <= x < x1, y0 <= y < y1; for a stratum what bounds the whole picture
+    std::size_t pixels;
+};
+
+/// In words: "the whole picture", "tile 32..47, 0..15", "luminance stratum 3 of 16".
+std::string describe(const Region& region);
+
+/// How the pixels of a region are weighed, with m and v the pilot's mean and variance of a batch.
+enum class Weight {
+    matched, // m / v: the best linear way to see a relative error, it listens where the noise is low
+    plain,   // 1: sees an error of few bright pixels that the first would discount
+    bounded  // the mean of c / (c + m): no single sample can move it far, however bright
+};
+inline constexpr std::array weights = {Weight::matched, Weight::plain, Weight::bounded};
+
+std::string describe(Weight weight);
+
+constexpr bool is_linear(Weight weight)
+{
+    return weight != Weight::bounded;
+}
+
+/// Per pixel and channel, the mean of the pilot's batches and their noise sqrt(v) / m, the relative
+/// standard deviation of one batch (0 where m is not positive). What a golden stores of its pilot.
+struct Pilot {
+    Image mean;
+    Image noise;
+    std::uint64_t batches = 0;
+};
+
+/// The pilot that a film of at least two batches makes, noise rounded to half precision, mean to single:
+/// as a file holds them, so that a golden that was read and one that was made are the same. Throws
+/// std::invalid_argument for fewer batches.
+Pilot make_pilot(const Film& film);
+
+/// One region seen through one weight.
+struct Functional {
+    std::size_t region; // into Functionals::regions()
+    Weight weight;
+};
+
+/// The values of all functionals of one batch: value of functional f in channel c at [c * size() + f].
+/// They are standardised, (value - expected) / spread, and rounded to half precision, which makes
+/// small files and is the same rounding for everything that is compared.
+using Row = std::vector<float>;
+
+class Functionals {
+public:
+    /// Throws std::invalid_argument if the sizes differ, a value is not finite, or there is no pixel.
+    explicit Functionals(Pilot pilot);
+
+    [[nodiscard]] const Pilot& pilot() const { return pilot_; }
+    [[nodiscard]] int width() const { return pilot_.mean.width; }
+    [[nodiscard]] int height() const { return pilot_.mean.height; }
+    [[nodiscard]] const std::vector<Region>& regions() const { return regions_; }
+    /// Functionals per channel: each region with each weight, in that order.
+    [[nodiscard]] std::size_t size() const { return regions_.size() * weights.size(); }
+    [[nodiscard]] Functional at(std::size_t functional) const;
+
+    /// What standardised values stand for. A linear functional is divided by its value of the pilot's
+    /// mean, so that 1 is expected and a relative error of the picture is one of the functional; where
+    /// the pilot is black it is the plain sum, and 0 is expected.
+    [[nodiscard]] double expected(std::size_t functional, std::size_t channel) const;
+    /// About the standard deviation of one batch, positive.
+    [[nodiscard]] double spread(std::size_t functional, std::size_t channel) const;
+
+    /// The functionals of a batch. Throws std::invalid_argument if its size differs or a pixel is NaN
+    /// or infinite.
+    [[nodiscard]] Row evaluate(const Image& batch) const;
+
+    /// The pixel's share in a linear functional of its channel is weight * value; 0 outside the region.
+    [[nodiscard]] double pixel_weight(std::size_t functional, std::size_t channel,
+                                      std::size_t pixel) const;
+
+private:
+    struct Standard {
+        double scale; // the functional is the weighted sum times this
+        double expected;
+        double spread;
+    };
+    using Sums = std::vector<std::array<double, 3>>; // per region, by weight
+
+    void lay_out_regions();
+    void weigh();
+    [[nodiscard]] bool contains(const Region& region, std::size_t pixel) const;
+    /// The sums over tiles and the whole picture, once those over fine tiles and strata are there.
+    void sum_up(Sums& sums) const;
+    template <class PixelTerms>
+    [[nodiscard]] Sums sum_over_regions(const PixelTerms& terms) const;
+
+    Pilot pilot_;
+    std::vector<Region> regions_;
+    int fine_side_ = 1;
+    int fine_columns_ = 1, coarse_columns_ = 1;
+    std::size_t first_coarse_ = 0, first_fine_ = 0, first_luminance_ = 0, first_noise_ = 0;
+    struct Place {
+        std::uint32_t fine, luminance, noise; // regions that the pixel lies in
+    };
+    std::vector<Place> places_;
+    std::vector<Rgb> matched_; // m / v per pixel
+    std::array<std::vector<Standard>, 3> standards_;
+};
+
+} // namespace golden

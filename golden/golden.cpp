@@ -1,0 +1,214 @@
+#include "golden/golden.h"
+
+#include "golden/image_error.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace golden {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* pilot_mean_layer = "pilot.mean";
+constexpr const char* pilot_noise_layer = "pilot.noise";
+constexpr const char* pilot_batches_key = "golden.pilot_batches";
+constexpr const char* reference_batches_key = "golden.reference_batches";
+constexpr const char* functionals_key = "golden.functionals";
+constexpr std::size_t channels = 3;
+
+/// As a file holds it. A call, so that it is done: g++ 12.2 at -O2 drops a pair of conversions
+/// double-float-double in vector registers.
+[[gnu::noinline]] float single(double value)
+{
+    return static_cast<float>(value);
+}
+
+Image in_single_precision(Image image)
+{
+    for (Rgb& pixel : image.pixels)
+        for (int channel = 0; channel < 3; ++channel)
+            pixel[channel] = static_cast<double>(single(pixel[channel]));
+    return image;
+}
+
+std::string reference_layer(std::size_t index)
+{
+    std::string digits = std::to_string(index);
+    if (digits.size() < 3) digits.insert(0, 3 - digits.size(), '0');
+    return "reference." + digits;
+}
+
+/// The rows as pictures of the golden's size.
+void add_rows(Layers& layers, const std::vector<Row>& rows, const Functionals& functionals)
+{
+    const std::size_t count = functionals.size();
+    const auto pixels = functionals.pilot().mean.pixels.size();
+    for (std::size_t at = 0; at < rows.size() * count; ++at) {
+        Image& layer = layers[reference_layer(at / pixels)];
+        if (layer.pixels.empty()) layer = Image(functionals.width(), functionals.height());
+        for (std::size_t c = 0; c < channels; ++c)
+            layer.pixels[at % pixels][static_cast<int>(c)] =
+                static_cast<double>(rows[at / count][c * count + at % count]);
+    }
+}
+
+std::vector<Row> read_rows(const fs::path& path, const Layers& layers, const Functionals& functionals,
+                           std::uint64_t batches)
+{
+    const std::size_t count = functionals.size();
+    const auto pixels = functionals.pilot().mean.pixels.size();
+    // Before memory is asked for: do the layers hold so many?
+    const std::size_t layers_needed = (batches * count + pixels - 1) / pixels;
+    if (batches > layers.size() * pixels / count || !layers.contains(reference_layer(layers_needed - 1)))
+        throw ImageError(path, "damaged golden: says it holds " + std::to_string(batches) +
+                                   " reference batches, and does not");
+    std::vector<Row> rows(batches, Row(channels * count));
+    for (std::size_t at = 0; at < batches * count; ++at) {
+        const auto layer = layers.find(reference_layer(at / pixels));
+        if (layer == layers.end())
+            throw ImageError(path, "damaged golden: has no layer " + reference_layer(at / pixels));
+        for (std::size_t c = 0; c < channels; ++c) {
+            const double value = layer->second.pixels[at % pixels][static_cast<int>(c)];
+            if (!std::isfinite(value))
+                throw ImageError(path, "damaged golden: a reference value is NaN or infinite");
+            rows[at / count][c * count + at % count] = static_cast<float>(value);
+        }
+    }
+    return rows;
+}
+
+const std::string& find_text(const fs::path& path, const Metadata& metadata, const char* key)
+{
+    const auto found = metadata.find(key);
+    if (found == metadata.end())
+        throw ImageError(path, "not a golden: says nothing of its " + std::string(key));
+    return found->second;
+}
+
+std::uint64_t find_number(const fs::path& path, const Metadata& metadata, const char* key)
+{
+    const std::string& text = find_text(path, metadata, key);
+    std::uint64_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    constexpr std::uint64_t largest = std::uint64_t{1} << 32;
+    if (error != std::errc() || rest != end || number > largest)
+        throw ImageError(path, "'" + text + "' is no " + key);
+    return number;
+}
+
+/// What two builds of this program must agree on to read each other's goldens.
+std::string say_functionals(const Functionals& functionals)
+{
+    return "version 1, " + std::to_string(functionals.size()) + " per channel";
+}
+
+Functionals read_functionals(const fs::path& path, const ExrPicture& picture)
+{
+    const auto mean = picture.layers.find(pilot_mean_layer);
+    const auto noise = picture.layers.find(pilot_noise_layer);
+    if (mean == picture.layers.end() || noise == picture.layers.end())
+        throw ImageError(path, "not a golden: has no pilot");
+    const std::uint64_t batches = find_number(path, picture.metadata, pilot_batches_key);
+    const std::string& said = find_text(path, picture.metadata, functionals_key);
+    try {
+        Functionals functionals({mean->second, noise->second, batches});
+        if (said != say_functionals(functionals))
+            throw ImageError(path, "its functionals are '" + said + "', this program's '" +
+                                       say_functionals(functionals) + "': make it again");
+        return functionals;
+    } catch (const std::invalid_argument& error) {
+        throw ImageError(path, std::string("damaged golden: ") + error.what());
+    }
+}
+
+} // namespace
+
+Golden read_golden(const fs::path& path)
+{
+    ExrPicture picture = read_exr(path);
+    Functionals functionals = read_functionals(path, picture);
+    if (!picture.standard_error) throw ImageError(path, "not a golden: has no standard error");
+    const std::uint64_t batches = find_number(path, picture.metadata, reference_batches_key);
+    if (batches < 1) throw ImageError(path, "not a finished golden: no batch after its pilot");
+    std::vector<Row> rows = read_rows(path, picture.layers, functionals, batches);
+    return {std::move(picture.mean), std::move(*picture.standard_error), std::move(picture.metadata),
+            std::move(functionals), std::move(rows)};
+}
+
+GoldenMaker::GoldenMaker(int width, int height, std::uint64_t pilot_batches)
+    : film_(width, height), pilot_batches_(pilot_batches)
+{
+    if (pilot_batches < 2) throw std::invalid_argument("a pilot needs two batches at least");
+}
+
+GoldenMaker GoldenMaker::resume(const fs::path& path)
+{
+    ExrPicture picture = read_exr(path);
+    if (!picture.film) throw ImageError(path, "holds no state to resume from");
+    const std::uint64_t pilot_batches = find_number(path, picture.metadata, pilot_batches_key);
+    if (pilot_batches < 2) throw ImageError(path, "damaged golden: a pilot of fewer than two batches");
+    const Image& mean = picture.film->mean();
+    GoldenMaker maker(mean.width, mean.height, pilot_batches);
+    maker.film_ = std::move(*picture.film);
+    if (maker.film_.batches() < pilot_batches) return maker;
+    maker.functionals_ = read_functionals(path, picture);
+    const std::uint64_t batches = maker.film_.batches() - pilot_batches;
+    if (batches != find_number(path, picture.metadata, reference_batches_key))
+        throw ImageError(path, "damaged golden: its film and its reference differ in length");
+    if (batches > 0) maker.reference_ = read_rows(path, picture.layers, *maker.functionals_, batches);
+    return maker;
+}
+
+void GoldenMaker::add_batch(const Image& batch)
+{
+    if (const auto place = first_non_finite(batch))
+        throw std::invalid_argument("batch " + std::to_string(film_.batches()) + ": pixel (" +
+                                    std::to_string(place->x) + ", " + std::to_string(place->y) +
+                                    ") is NaN or infinite");
+    Row row;
+    if (functionals_) row = functionals_->evaluate(batch);
+    film_.add_batch(batch);
+    if (functionals_) reference_.push_back(std::move(row));
+    if (film_.batches() == pilot_batches_) functionals_.emplace(make_pilot(film_));
+}
+
+Golden GoldenMaker::golden(const Metadata& metadata) const
+{
+    if (reference_.empty()) throw std::invalid_argument("a golden needs batches after its pilot");
+    Metadata all = metadata;
+    describe(all);
+    return {in_single_precision(film_.mean()), in_single_precision(film_.standard_error()),
+            std::move(all), *functionals_, reference_};
+}
+
+void GoldenMaker::describe(Metadata& metadata) const
+{
+    metadata[pilot_batches_key] = std::to_string(pilot_batches_);
+    metadata[reference_batches_key] = std::to_string(reference_.size());
+    if (functionals_) metadata[functionals_key] = say_functionals(*functionals_);
+}
+
+void GoldenMaker::write(const fs::path& path, const Metadata& metadata, FilmState state) const
+{
+    if (state == FilmState::omit && reference_.empty())
+        throw std::invalid_argument("a golden needs batches after its pilot");
+    Metadata all = metadata;
+    describe(all);
+    Layers layers;
+    Layers half_layers;
+    if (functionals_) {
+        layers[pilot_mean_layer] = functionals_->pilot().mean;
+        half_layers[pilot_noise_layer] = functionals_->pilot().noise;
+        add_rows(half_layers, reference_, *functionals_);
+    }
+    write_exr(path, film_, all, layers, state, half_layers);
+}
+
+} // namespace golden

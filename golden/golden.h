@@ -1,0 +1,72 @@
+#pragma once
+
+// A golden: a reference picture, with all that is needed to judge another one by it. It is an EXR file
+// (see exr.h) with further layers, the values of which are stored in half precision but for the first:
+//
+//   pilot.mean.R ...        the mean of the pilot's batches, in single precision
+//   pilot.noise.R ...       their relative standard deviation, sqrt(v) / m
+//   reference.NNN.R ...     the standardised functionals (see functionals.h) of the batches after the
+//                           pilot, channel by channel: first all of one batch, then all of the next,
+//                           row by row through the layers 000, 001, ...; the rest is 0
+//   attributes plumbline.golden.pilot_batches, .reference_batches, .functionals
+//
+// R, G, B and se are the mean over all batches and its standard error, as in any picture of ours.
+
+#include "golden/exr.h"
+#include "golden/functionals.h"
+#include "golden/image.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace golden {
+
+struct Golden {
+    Image mean;           // of all batches
+    Image standard_error; // of that mean
+    Metadata metadata;
+    Functionals functionals;
+    std::vector<Row> reference; // the functionals of each batch after the pilot
+};
+
+/// Reads a golden. Throws ImageError for what is none, with the reason.
+Golden read_golden(const std::filesystem::path& path);
+
+/// Makes a golden batch by batch. The bits depend only on the batches, wherever the making was
+/// interrupted and resumed.
+class GoldenMaker {
+public:
+    /// The first `pilot_batches` batches, at least 2, are the pilot.
+    GoldenMaker(int width, int height, std::uint64_t pilot_batches);
+
+    /// Goes on from a file written with FilmState::keep. Throws ImageError if it is no such file.
+    static GoldenMaker resume(const std::filesystem::path& path);
+
+    /// Throws std::invalid_argument if the size differs or a pixel is NaN or infinite.
+    void add_batch(const Image& batch);
+
+    [[nodiscard]] const Film& film() const { return film_; } // of all batches
+    [[nodiscard]] std::uint64_t pilot_batches() const { return pilot_batches_; }
+    [[nodiscard]] std::uint64_t reference_batches() const { return reference_.size(); }
+
+    /// The golden so far, as read_golden would return it. Throws std::invalid_argument before the first
+    /// batch after the pilot.
+    [[nodiscard]] Golden golden(const Metadata& metadata) const;
+
+    /// Writes what there is, with the state to resume from or, once it is finished, without.
+    /// `metadata` describes the picture, batch_size included. Throws ImageError, and
+    /// std::invalid_argument for a golden without state that has no batch after the pilot.
+    void write(const std::filesystem::path& path, const Metadata& metadata, FilmState state) const;
+
+private:
+    void describe(Metadata& metadata) const;
+
+    Film film_;
+    std::uint64_t pilot_batches_;
+    std::optional<Functionals> functionals_; // once the pilot is complete
+    std::vector<Row> reference_;
+};
+
+} // namespace golden

@@ -1,0 +1,351 @@
+#include "golden/compare.h"
+#include "tests/calibration/simulated_renderer.h"
+#include "tests/golden/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace {
+
+using calibration::Bias;
+using calibration::Noise;
+using calibration::SimulatedRenderer;
+using golden::Candidate;
+using golden::CompareOptions;
+using golden::Comparison;
+using golden::Golden;
+using golden::GoldenMaker;
+using golden::Image;
+using golden::Method;
+using golden::Rgb;
+using golden::Verdict;
+using golden_test::error_of;
+
+constexpr int size = 32;
+const golden::Metadata metadata = {{"batch_size", "4"}, {"scene_hash", "abc"}, {"seed", "1"}};
+
+/// Levels of detectable errors as 32x32 pixels can offer.
+CompareOptions for_small_pictures()
+{
+    CompareOptions options;
+    options.specification = 0.02;
+    return options;
+}
+
+/// One golden of a simulated picture for all tests. All seeds are fixed: what passes goes on passing.
+/// At the levels given, a right picture is accused by chance once in 100 choices of a seed.
+class Compare : public ::testing::Test {
+protected:
+    static const SimulatedRenderer& renderer()
+    {
+        static const SimulatedRenderer instance(size, Noise::lognormal);
+        return instance;
+    }
+    static const Golden& reference()
+    {
+        static const Golden instance = [] {
+            GoldenMaker maker(size, size, 256);
+            for (std::uint64_t batch = 0; batch < 768; ++batch)
+                maker.add_batch(renderer().render(1, batch));
+            return maker.golden(metadata);
+        }();
+        return instance;
+    }
+    static Candidate candidate(const Bias& bias = {}, std::uint64_t batches = 64, std::uint64_t seed = 2)
+    {
+        Candidate result(reference().functionals);
+        for (std::uint64_t batch = 0; batch < batches; ++batch)
+            result.add_batch(renderer().render(seed, batch, bias));
+        return result;
+    }
+    /// Stages of the simulated renderer, each with its own bias; the last goes on.
+    static golden::RenderStage stages(const std::vector<Bias>& biases)
+    {
+        return [biases](std::size_t stage, std::uint64_t batches, Candidate& result) {
+            for (std::uint64_t batch = 0; batch < batches; ++batch)
+                result.add_batch(
+                    renderer().render(10 + stage, batch, biases[std::min(stage, biases.size() - 1)]));
+        };
+    }
+};
+
+TEST_F(Compare, ARightPicturePassesAndSaysWhatItCouldHaveSeen)
+{
+    const Comparison result =
+        golden::compare(reference(), candidate(), Method::ranks, for_small_pictures());
+    EXPECT_EQ(result.verdict, Verdict::pass) << result.reason;
+    for (const double detectable : result.detectable) {
+        EXPECT_GT(detectable, 0.001);
+        EXPECT_LT(detectable, 0.02);
+    }
+    EXPECT_EQ(result.findings.size(), 3 * reference().functionals.size());
+    EXPECT_EQ(result.golden_batches, 512u);
+    EXPECT_EQ(result.coverage, 1.0);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const golden::Finding& whole = golden::whole_picture(result, channel);
+        EXPECT_LE(whole.interval.low, 1.0); // 99% intervals
+        EXPECT_GE(whole.interval.high, 1.0);
+        EXPECT_LT(whole.interval.high - whole.interval.low, 0.05);
+    }
+}
+
+TEST_F(Compare, APictureThatIsTooDarkFailsAndTheRatioSaysByHowMuch)
+{
+    const Comparison result =
+        golden::compare(reference(), candidate({.everywhere = 0.95}), Method::ranks);
+    EXPECT_EQ(result.verdict, Verdict::fail) << result.reason;
+    const golden::Finding& whole = golden::whole_picture(result, 1);
+    EXPECT_LT(whole.interval.low, 0.95);
+    EXPECT_GT(whole.interval.high, 0.95);
+    EXPECT_LT(whole.interval.high, 1.0);
+    EXPECT_LT(whole.test.z, 0.0);
+    EXPECT_LT(result.p, 1e-8);
+}
+
+TEST_F(Compare, AFewBatchesPassNothing)
+{
+    for (const std::uint64_t batches : {1u, 2u, 4u}) {
+        const Comparison result = golden::compare(reference(), candidate({}, batches), Method::ranks);
+        EXPECT_EQ(result.verdict, Verdict::inconclusive) << result.reason;
+    }
+    EXPECT_THROW(golden::compare(reference(), candidate({}, 0), Method::ranks), std::invalid_argument);
+    EXPECT_THROW(golden::compare(reference(), candidate({}, 1), Method::welch), std::invalid_argument);
+}
+
+TEST_F(Compare, WhatCannotMeetTheSpecificationIsInconclusiveAndNamesIt)
+{
+    CompareOptions strict;
+    strict.specification = 1e-4;
+    const Comparison result = golden::compare(reference(), candidate(), Method::ranks, strict);
+    EXPECT_EQ(result.verdict, Verdict::inconclusive);
+    EXPECT_NE(result.reason.find("(required: 0.01%)"), std::string::npos) << result.reason;
+}
+
+// What a first stage at these levels suspects without being certain of it.
+constexpr Bias suspicious{.everywhere = 0.987};
+
+TEST_F(Compare, ASuspicionThatNoStageCanConfirmIsInconclusive)
+{
+    const Comparison result = golden::compare(reference(), candidate(suspicious), Method::ranks);
+    EXPECT_EQ(result.verdict, Verdict::inconclusive) << result.reason;
+    EXPECT_LT(result.p, 0.01);
+    EXPECT_GT(result.p, 1e-8);
+    EXPECT_NE(result.reason.find("Suspicious"), std::string::npos);
+}
+
+TEST_F(Compare, ASuspicionThatAFreshRenderConfirmsFails)
+{
+    const Comparison result = golden::compare(reference(), stages({suspicious}), Method::ranks);
+    EXPECT_EQ(result.verdict, Verdict::fail) << result.reason;
+    ASSERT_EQ(result.stages.size(), 2u);
+    EXPECT_EQ(result.stages[1].batches, 256u);
+    EXPECT_LT(result.stages[1].p, result.stages[1].level);
+}
+
+TEST_F(Compare, ASuspicionThatAFreshRenderDoesNotConfirmIsDropped)
+{
+    const Comparison cleared =
+        golden::compare(reference(), stages({suspicious, {}}), Method::ranks, for_small_pictures());
+    EXPECT_EQ(cleared.verdict, Verdict::pass) << cleared.reason;
+    EXPECT_EQ(cleared.stages.size(), 2u);
+    // Too bright is no confirmation of too dark.
+    const Comparison opposite = golden::compare(reference(), stages({suspicious, {.everywhere = 1.013}}),
+                                                Method::ranks, for_small_pictures());
+    EXPECT_EQ(opposite.verdict, Verdict::pass) << opposite.reason;
+}
+
+TEST_F(Compare, EveryStageMustConfirm)
+{
+    CompareOptions three = for_small_pictures();
+    three.stages = {64, 256, 256};
+    EXPECT_EQ(
+        golden::compare(reference(), stages({suspicious, suspicious, {}}), Method::ranks, three).verdict,
+        Verdict::pass);
+    EXPECT_EQ(golden::compare(reference(), stages({suspicious}), Method::ranks, three).verdict,
+              Verdict::fail);
+}
+
+TEST_F(Compare, AnErrorInOneTileIsFoundThere)
+{
+    Candidate spotted(reference().functionals);
+    for (std::uint64_t batch = 0; batch < 64; ++batch) {
+        Image image = renderer().render(3, batch);
+        for (int y = 4; y < 8; ++y) // tile in column 5, row 1 of 4x4 pixels
+            for (int x = 20; x < 24; ++x) image.at(x, y).g *= 0.5;
+        spotted.add_batch(image);
+    }
+    const Comparison result = golden::compare(reference(), spotted, Method::ranks);
+    EXPECT_EQ(result.verdict, Verdict::fail) << result.reason;
+    ASSERT_TRUE(result.suspicion);
+    EXPECT_EQ(describe(result.findings[*result.suspicion]).substr(0, 30),
+              "green of tile x 20..23, y 4..7");
+    const golden::TileMap green = golden::tile_map(result, 1);
+    ASSERT_EQ(green.columns, 8);
+    ASSERT_EQ(green.rows, 8);
+    for (std::size_t tile = 0; tile < 64; ++tile) {
+        if (tile == 8 + 5)
+            EXPECT_LT(green.z[tile], -8.0);
+        else
+            EXPECT_LT(std::abs(green.z[tile]), 4.5) << tile; // alpha = 7e-6 each
+        EXPECT_LT(std::abs(golden::tile_map(result, 0).z[tile]), 4.5) << tile;
+    }
+}
+
+/// A picture without noise, as a furnace is: value / pixel is the same in each batch.
+Golden noiseless_golden()
+{
+    GoldenMaker maker(16, 16, 32);
+    Image image(16, 16);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = Rgb(0.1 + static_cast<double>(i), 1.0 / 3.0, 0.0);
+    for (int batch = 0; batch < 96; ++batch) maker.add_batch(image);
+    return maker.golden(metadata);
+}
+
+Candidate scaled(const Golden& golden, double factor)
+{
+    Candidate candidate(golden.functionals);
+    Image image = golden.functionals.pilot().mean;
+    for (Rgb& pixel : image.pixels) pixel *= factor;
+    for (int batch = 0; batch < 64; ++batch) candidate.add_batch(image);
+    return candidate;
+}
+
+TEST(CompareWithoutNoise, SinglePrecisionIsNoErrorAndATenthOfAPercentIs)
+{
+    const Golden golden = noiseless_golden();
+    for (const Method method : {Method::ranks, Method::welch}) {
+        EXPECT_EQ(compare(golden, scaled(golden, 1.0), method).verdict, Verdict::pass);
+        EXPECT_EQ(compare(golden, scaled(golden, 1.0 + 5e-7), method).verdict, Verdict::pass);
+        EXPECT_EQ(compare(golden, scaled(golden, 1.0 - 5e-7), method).p, 1.0);
+        EXPECT_EQ(compare(golden, scaled(golden, 0.999), method).verdict, Verdict::fail);
+    }
+}
+
+TEST(CompareWithoutNoise, LightInAChannelThatShouldBeBlackFails)
+{
+    const Golden golden = noiseless_golden();
+    Candidate candidate(golden.functionals);
+    Image image = golden.functionals.pilot().mean;
+    for (Rgb& pixel : image.pixels) pixel.b = 1e-3;
+    for (int batch = 0; batch < 64; ++batch) candidate.add_batch(image);
+    const Comparison result = compare(golden, candidate, Method::ranks);
+    EXPECT_EQ(result.verdict, Verdict::fail) << result.reason;
+    EXPECT_EQ(result.findings[*result.suspicion].channel, 2u);
+    EXPECT_TRUE(std::isnan(result.detectable[2]));
+}
+
+TEST(CompareWithoutNoise, OneBrightSampleThatTheGoldenNeverSawDoesNotFail)
+{
+    const Golden golden = noiseless_golden();
+    Candidate candidate(golden.functionals);
+    Image image = golden.functionals.pilot().mean;
+    for (int batch = 0; batch < 63; ++batch) candidate.add_batch(image);
+    image.at(5, 5) += Rgb(1e4);
+    candidate.add_batch(image);
+    EXPECT_NE(compare(golden, candidate, Method::ranks).verdict, Verdict::fail);
+    EXPECT_NE(compare(golden, candidate, Method::welch).verdict, Verdict::fail);
+}
+
+TEST_F(Compare, AnotherEstimatorWithOtherNoisePassesAndFailsByItsMean)
+{
+    // The same picture with gamma noise: another distribution, which ranks would rightly tell apart.
+    const SimulatedRenderer other(size, Noise::gamma);
+    const auto pictures = [&](double factor) {
+        Candidate result(reference().functionals);
+        for (std::uint64_t i = 0; i < 100; ++i)
+            result.add_batch(other.render(5, i, {.everywhere = factor}));
+        return result;
+    };
+    CompareOptions options = for_small_pictures();
+    const Comparison right = golden::compare(reference(), pictures(1.0), Method::welch, options);
+    EXPECT_EQ(right.verdict, Verdict::pass) << right.reason;
+    EXPECT_EQ(right.findings.size(), 2 * reference().functionals.size());
+    EXPECT_GT(right.coverage, 0.5);
+    EXPECT_EQ(golden::compare(reference(), pictures(0.95), Method::welch, options).verdict,
+              Verdict::fail);
+}
+
+TEST_F(Compare, WhatIsTooSkewedForATTestIsNeverPassed)
+{
+    const SimulatedRenderer heavy(size, Noise::pareto_15);
+    Candidate pictures(reference().functionals);
+    for (std::uint64_t i = 0; i < 64; ++i) pictures.add_batch(heavy.render(5, i));
+    const Comparison result =
+        golden::compare(reference(), pictures, Method::welch, for_small_pictures());
+    EXPECT_EQ(result.verdict, Verdict::inconclusive) << result.reason;
+    EXPECT_LT(result.coverage, 1.0);
+}
+
+TEST_F(Compare, ASinglePictureIsJudgedByAnAssumedNoiseAndSaysSo)
+{
+    const auto picture = [&](double factor) {
+        return candidate({.everywhere = factor}, 256, 7).film().mean();
+    };
+    const Comparison right =
+        golden::compare_picture(reference(), picture(1.0), 1024.0, for_small_pictures());
+    EXPECT_EQ(right.verdict, Verdict::pass) << right.reason;
+    EXPECT_EQ(right.method, Method::picture);
+    ASSERT_TRUE(right.noise_ratio);
+    EXPECT_GT(*right.noise_ratio, 0.5); // the same noise, and a third more of the golden's own
+    EXPECT_LT(*right.noise_ratio, 2.5);
+    EXPECT_EQ(golden::compare_picture(reference(), picture(0.95), 1024.0).verdict, Verdict::fail);
+}
+
+TEST_F(Compare, ASinglePictureNoisierThanItClaimsIsNotCondemnedForIt)
+{
+    // 16 samples, said to be 16384.
+    const Image noisy = candidate({}, 4, 8).film().mean();
+    const Comparison result = golden::compare_picture(reference(), noisy, 16384.0);
+    EXPECT_NE(result.verdict, Verdict::fail) << result.reason;
+    EXPECT_GT(*result.noise_ratio, 100.0);
+}
+
+TEST_F(Compare, PicturesThatDoNotFitAreRefused)
+{
+    Candidate candidate(reference().functionals);
+    EXPECT_THROW(candidate.add_batch(Image(size, size + 1)), std::invalid_argument);
+    Image image(size, size);
+    image.at(7, 9).r = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(error_of<std::invalid_argument>([&] { candidate.add_batch(image); }),
+              "pixel (7, 9) is NaN or infinite");
+    EXPECT_EQ(candidate.batches(), 0u);
+    EXPECT_EQ(error_of<std::invalid_argument>([&] { golden::compare_picture(reference(), image, 4.0); }),
+              "pixel (7, 9) is NaN or infinite");
+    EXPECT_THROW(golden::compare_picture(reference(), Image(size, size), 0.0), std::invalid_argument);
+}
+
+TEST_F(Compare, CandidatesOfAnotherSceneOrOfTheGoldensSeedAreRefused)
+{
+    const auto error = [](const golden::Metadata& candidate, Method method) {
+        return error_of<std::invalid_argument>(
+            [&] { golden::check_comparable(reference(), candidate, method); });
+    };
+    EXPECT_EQ(error({}, Method::ranks), "");
+    EXPECT_EQ(error({{"scene_hash", "abc"}, {"seed", "2"}, {"batch_size", "4"}}, Method::ranks), "");
+    EXPECT_EQ(error({{"scene_hash", "xyz"}}, Method::welch),
+              "its scene's hash is xyz, the golden's is abc");
+    EXPECT_EQ(error({{"seed", "1"}}, Method::ranks),
+              "has the golden's own seed, 1: the two are not independent");
+    EXPECT_EQ(error({{"batch_size", "8"}}, Method::ranks), "its batch_size is 8, the golden's is 4");
+    EXPECT_EQ(error({{"batch_size", "8"}}, Method::welch), "");
+}
+
+TEST_F(Compare, TheMultiplicityIsThatOfChannelsFamiliesAndTheirMembers)
+{
+    const Comparison result = golden::compare(reference(), candidate(), Method::ranks);
+    for (const golden::Finding& finding : result.findings) {
+        const double members = finding.region.kind == golden::RegionKind::whole       ? 1.0
+                               : finding.region.kind == golden::RegionKind::fine_tile ? 64.0
+                                                                                      : 16.0;
+        EXPECT_DOUBLE_EQ(finding.adjusted_p, std::min(1.0, finding.test.p * 3.0 * 15.0 * members));
+        EXPECT_GE(finding.adjusted_p, result.p);
+    }
+}
+
+} // namespace

@@ -1,0 +1,173 @@
+#include "golden/golden.h"
+#include "golden/image_error.h"
+#include "tests/golden/generators.h"
+#include "tests/golden/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace {
+
+using golden::FilmState;
+using golden::Golden;
+using golden::GoldenMaker;
+using golden::Image;
+using golden::ImageError;
+using golden::Rgb;
+using namespace golden_test;
+
+const golden::Metadata metadata = {{"batch_size", "4"}, {"scene", "test"}};
+
+/// Non-negative values that need all bits of a double, some of them 0.
+Image any_batch(int width, int height)
+{
+    return any_image(rc::gen::map(rc::gen::inRange(0, 1000), [](int i) { return i / 7.0; }), width,
+                     height);
+}
+
+void expect_equal(const Golden& a, const Golden& b)
+{
+    EXPECT_TRUE(same_bits(a.mean, b.mean));
+    EXPECT_TRUE(same_bits(a.standard_error, b.standard_error));
+    EXPECT_EQ(a.metadata, b.metadata);
+    EXPECT_TRUE(same_bits(a.functionals.pilot().mean, b.functionals.pilot().mean));
+    EXPECT_TRUE(same_bits(a.functionals.pilot().noise, b.functionals.pilot().noise));
+    EXPECT_EQ(a.functionals.pilot().batches, b.functionals.pilot().batches);
+    EXPECT_EQ(a.reference, b.reference);
+}
+
+RC_GTEST_PROP(Golden, IsReadAsItWasMade, ())
+{
+    const TemporaryFolder folder;
+    const int width = *rc::gen::inRange(1, 20);
+    const int height = *rc::gen::inRange(1, 20);
+    GoldenMaker maker(width, height, 3);
+    const int batches = *rc::gen::inRange(4, 12);
+    for (int i = 0; i < batches; ++i) maker.add_batch(any_batch(width, height));
+    maker.write(folder / "a.exr", metadata, FilmState::omit);
+    const Golden golden = golden::read_golden(folder / "a.exr");
+    expect_equal(golden, maker.golden(metadata));
+    RC_ASSERT(golden.reference.size() == static_cast<std::size_t>(batches - 3));
+    RC_ASSERT(!::testing::Test::HasFailure());
+}
+
+RC_GTEST_PROP(Golden, GoingOnFromAFileGivesTheBytesOfAnUninterruptedMaking, ())
+{
+    const TemporaryFolder folder;
+    std::vector<Image> batches;
+    for (int i = 0; i < 9; ++i) batches.push_back(any_batch(5, 4));
+    const auto interruption = static_cast<std::size_t>(*rc::gen::inRange(0, 9));
+
+    GoldenMaker whole(5, 4, 4);
+    for (const Image& batch : batches) whole.add_batch(batch);
+    whole.write(folder / "whole.exr", metadata, FilmState::omit);
+
+    GoldenMaker first(5, 4, 4);
+    for (std::size_t i = 0; i < interruption; ++i) first.add_batch(batches[i]);
+    first.write(folder / "part.exr", metadata, FilmState::keep);
+    GoldenMaker second = GoldenMaker::resume(folder / "part.exr");
+    RC_ASSERT(second.film().batches() == interruption);
+    for (std::size_t i = interruption; i < batches.size(); ++i) second.add_batch(batches[i]);
+    second.write(folder / "resumed.exr", metadata, FilmState::omit);
+    RC_ASSERT(read_bytes(folder / "resumed.exr") == read_bytes(folder / "whole.exr"));
+}
+
+TEST(Golden, MeanIsThatOfAllBatchesAndTheReferenceThoseAfterThePilot)
+{
+    GoldenMaker maker(2, 1, 2);
+    for (const double value : {1.0, 3.0, 5.0, 7.0}) {
+        Image batch(2, 1);
+        batch.pixels.assign(2, Rgb(value));
+        maker.add_batch(batch);
+    }
+    const Golden golden = maker.golden(metadata);
+    EXPECT_EQ(golden.mean.pixels[0], Rgb(4.0));
+    EXPECT_EQ(golden.functionals.pilot().mean.pixels[0], Rgb(2.0));
+    ASSERT_EQ(golden.reference.size(), 2u);
+    // Twice the pilot's mean lies less far from it than three and a half times the mean of 2.
+    EXPECT_GT(golden.reference[0][0], 0.0F);
+    EXPECT_GT(golden.reference[1][0], golden.reference[0][0]);
+}
+
+TEST(Golden, BeforeThePilotIsCompleteThereIsNone)
+{
+    const TemporaryFolder folder;
+    EXPECT_THROW(GoldenMaker(2, 2, 1), std::invalid_argument);
+    GoldenMaker maker(2, 2, 2);
+    maker.add_batch(Image(2, 2));
+    maker.add_batch(Image(2, 2));
+    EXPECT_THROW((void)maker.golden(metadata), std::invalid_argument);
+    EXPECT_THROW(maker.write(folder / "a.exr", metadata, FilmState::omit), std::invalid_argument);
+    EXPECT_EQ(folder.entries(), 0u);
+}
+
+TEST(Golden, ABatchThatDoesNotFitIsRefusedAndLeavesNoTrace)
+{
+    GoldenMaker maker(2, 2, 2);
+    maker.add_batch(Image(2, 2));
+    EXPECT_THROW(maker.add_batch(Image(2, 3)), std::invalid_argument);
+    Image batch(2, 2);
+    batch.at(1, 0).b = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(error_of<std::invalid_argument>([&] { maker.add_batch(batch); }),
+              "batch 1: pixel (1, 0) is NaN or infinite");
+    EXPECT_EQ(maker.film().batches(), 1u);
+}
+
+/// What read_golden says about a golden whose metadata was edited.
+std::string error_with(const std::string& key, const std::string& value)
+{
+    const TemporaryFolder folder;
+    GoldenMaker maker(4, 4, 2);
+    for (int i = 0; i < 4; ++i) maker.add_batch(Image(4, 4));
+    maker.write(folder / "a.exr", metadata, FilmState::omit);
+    golden::ExrPicture picture = golden::read_exr(folder / "a.exr");
+    if (value == "removed")
+        picture.metadata.erase(key);
+    else
+        picture.metadata[key] = value;
+    golden::write_exr(folder / "b.exr", film_of(picture.mean), picture.metadata, picture.layers);
+    const std::string error = error_of<ImageError>([&] { golden::read_golden(folder / "b.exr"); });
+    return error.empty() ? error : error.substr((folder / "b.exr").string().size());
+}
+
+TEST(Golden, WhatIsNoneIsRefusedWithTheReason)
+{
+    const TemporaryFolder folder;
+    golden::write_exr(folder / "a.exr", film_of(Image(3, 3)), metadata);
+    EXPECT_EQ(error_of<ImageError>([&] { golden::read_golden(folder / "a.exr"); }),
+              (folder / "a.exr").string() + ": not a golden: has no pilot");
+    EXPECT_EQ(error_of<ImageError>([&] { GoldenMaker::resume(folder / "a.exr"); }),
+              (folder / "a.exr").string() + ": not a golden: says nothing of its golden.pilot_batches");
+
+    GoldenMaker maker(3, 3, 2);
+    maker.add_batch(Image(3, 3));
+    maker.add_batch(Image(3, 3));
+    maker.write(folder / "b.exr", metadata, FilmState::keep);
+    EXPECT_EQ(error_of<ImageError>([&] { golden::read_golden(folder / "b.exr"); }),
+              (folder / "b.exr").string() + ": not a finished golden: no batch after its pilot");
+    maker.add_batch(Image(3, 3));
+    maker.write(folder / "c.exr", metadata, FilmState::omit);
+    EXPECT_EQ(error_of<ImageError>([&] { GoldenMaker::resume(folder / "c.exr"); }),
+              (folder / "c.exr").string() + ": holds no state to resume from");
+}
+
+TEST(Golden, DamagedMetadataIsAnErrorAndNoCrash)
+{
+    EXPECT_EQ(error_with("scene", "another"), ""); // the way itself works
+    EXPECT_EQ(error_with("golden.pilot_batches", "removed"),
+              ": not a golden: says nothing of its golden.pilot_batches");
+    EXPECT_EQ(error_with("golden.pilot_batches", "-1"), ": '-1' is no golden.pilot_batches");
+    EXPECT_EQ(error_with("golden.pilot_batches", "0"), ": damaged golden: pilot: no batches");
+    EXPECT_EQ(error_with("golden.reference_batches", "2x"), ": '2x' is no golden.reference_batches");
+    EXPECT_EQ(error_with("golden.reference_batches", "4000000000"),
+              ": damaged golden: says it holds 4000000000 reference batches, and does not");
+    EXPECT_EQ(error_with("golden.reference_batches", "99999999999"),
+              ": '99999999999' is no golden.reference_batches");
+    EXPECT_NE(error_with("golden.functionals", "version 0").find("make it again"), std::string::npos);
+}
+
+} // namespace
