@@ -1,0 +1,38 @@
+#pragma once
+
+// Atomic operations, named by what they are for. The only place where device and host code differ.
+
+#include "cuda/parallel/host_device.h"
+
+#include <atomic>
+#include <cstdint>
+
+#if defined(__CUDACC__)
+#include <cuda/atomic>
+#endif
+
+namespace gpu {
+
+/// Host only: what a thread calls before each of its atomic operations, if anything. Tests set it to
+/// decide there which thread goes on.
+inline thread_local void (*schedule_point)() = nullptr;
+
+/// Adds one to `counter` and returns what it was before: the first to arrive gets 0, the second 1.
+///
+/// Acquire and release in one step. Of two threads that arrive, whatever the first wrote before it
+/// arrived is visible to the second once it has: the second's read of the counter reads the value that
+/// the first's wrote (read-modify-write operations on one variable have a single total order), so the
+/// first's release synchronises with the second's acquire [C++20, intro.races; PTX ISA, memory
+/// consistency model]. With either half missing the second may go on with data that are not there yet.
+HD inline std::uint32_t arrive(std::uint32_t& counter)
+{
+#if defined(__CUDA_ARCH__)
+    return cuda::atomic_ref<std::uint32_t, cuda::thread_scope_device>(counter).fetch_add(
+        1, cuda::memory_order_acq_rel);
+#else
+    if (schedule_point != nullptr) schedule_point();
+    return std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_acq_rel);
+#endif
+}
+
+} // namespace gpu

@@ -1,0 +1,75 @@
+#pragma once
+
+// An array in some memory.
+
+#include "cuda/parallel/memory.h"
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace gpu {
+
+/// Owns `size()` elements with undefined contents, until they are written. The memory must outlive it.
+template <class T>
+class Buffer {
+    static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+
+public:
+    /// Throws OutOfMemory.
+    Buffer(Memory& memory, std::size_t size)
+        : memory_(&memory),
+          data_(size == 0 ? nullptr : static_cast<T*>(memory.allocate(size * sizeof(T)))), size_(size)
+    {}
+    Buffer(Memory& memory, std::span<const T> contents) : Buffer(memory, contents.size())
+    {
+        write(contents);
+    }
+    ~Buffer()
+    {
+        if (data_ != nullptr) memory_->release(data_);
+    }
+    Buffer(Buffer&& other) noexcept
+        : memory_(other.memory_), data_(std::exchange(other.data_, nullptr)),
+          size_(std::exchange(other.size_, 0))
+    {}
+    Buffer& operator=(Buffer&& other) noexcept
+    {
+        std::swap(memory_, other.memory_);
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        return *this;
+    }
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    /// For kernels of the executor that the memory belongs to.
+    [[nodiscard]] std::span<T> all() { return {data_, size_}; }
+    [[nodiscard]] std::span<const T> all() const { return {data_, size_}; }
+    /// The first `count` elements.
+    [[nodiscard]] std::span<T> first(std::size_t count) { return all().first(count); }
+    [[nodiscard]] std::span<const T> first(std::size_t count) const { return all().first(count); }
+
+    /// The first contents.size() elements get these values.
+    void write(std::span<const T> contents)
+    {
+        memory_->write(first(contents.size()).data(), contents.data(), contents.size_bytes());
+    }
+    /// The first `count` elements, on the host.
+    [[nodiscard]] std::vector<T> read(std::size_t count) const
+    {
+        std::vector<T> contents(count);
+        memory_->read(contents.data(), first(count).data(), count * sizeof(T));
+        return contents;
+    }
+
+private:
+    Memory* memory_;
+    T* data_;
+    std::size_t size_;
+};
+
+} // namespace gpu

@@ -1,0 +1,38 @@
+#pragma once
+
+// Kernels on a GPU.
+
+#include "cuda/parallel/check.cuh"
+#include "cuda/parallel/executor.h"
+
+#include <cuda_runtime.h>
+
+namespace gpu {
+
+template <Kernel K>
+__global__ void run_kernel(K kernel, std::uint32_t count)
+{
+    const std::uint32_t index = blockIdx.x * blockDim.x + threadIdx.x;
+    if (index < count) kernel(index);
+}
+
+/// One device thread per index, on a stream: launches are queued, and happen in order.
+class CudaExecutor {
+public:
+    explicit CudaExecutor(cudaStream_t stream) : stream_(stream) {}
+
+    template <Kernel K>
+    void operator()(std::uint32_t count, const K& kernel) const
+    {
+        if (count == 0) return; // CUDA calls a grid without blocks an error
+        constexpr std::uint32_t block_size = 256;
+        run_kernel<<<(count - 1) / block_size + 1, block_size, 0, stream_>>>(kernel, count);
+        check(cudaGetLastError());
+    }
+    [[nodiscard]] cudaStream_t stream() const { return stream_; }
+
+private:
+    cudaStream_t stream_;
+};
+
+} // namespace gpu

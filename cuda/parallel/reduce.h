@@ -1,0 +1,68 @@
+#pragma once
+
+// One value out of many. On a device CUB does it (primitives.cuh); this is for the executors of the
+// host.
+
+#include "cuda/parallel/chunks.h"
+#include "cuda/parallel/executor.h"
+
+#include <cstddef>
+#include <span>
+
+namespace gpu {
+
+/// Kernel over chunks: combines map(i) for the elements i of a chunk.
+template <class T, class Map, class Combine>
+struct ReduceChunk {
+    Chunks chunks;
+    Map map;
+    Combine combine;
+    T neutral;
+    std::span<T> partial; // one per chunk
+
+    HD void operator()(std::uint32_t chunk) const
+    {
+        T sum = neutral;
+        for (std::uint32_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i)
+            sum = combine(sum, map(i));
+        partial[chunk] = sum;
+    }
+};
+
+/// Kernel of one index: combines the results of all chunks.
+template <class T, class Combine>
+struct ReducePartial {
+    std::span<const T> partial;
+    Combine combine;
+    T neutral;
+    std::span<T> result;
+
+    HD void operator()(std::uint32_t /*index*/) const
+    {
+        T sum = neutral;
+        for (const T& part : partial) sum = combine(sum, part);
+        result[0] = sum;
+    }
+};
+
+/// How many elements of scratch memory `map_reduce` needs with the same arguments.
+template <class T, HostExecutor E, class Map, class Combine>
+std::size_t reduce_scratch(const E& executor, std::uint32_t /*count*/, const Map& /*map*/,
+                           const Combine& /*combine*/, const T& /*neutral*/)
+{
+    return executor.width();
+}
+
+/// result[0] = combine of map(0), ..., map(count - 1) and `neutral`. `combine` must be associative and
+/// commutative without rounding, as minimum and maximum are: how the elements are grouped is left open.
+template <class T, HostExecutor E, class Map, class Combine>
+void map_reduce(E& executor, std::uint32_t count, const Map& map, const Combine& combine,
+                const T& neutral, std::span<T> scratch, std::span<T> result)
+{
+    const Chunks chunks{count, executor.width()};
+    const std::span<T> partial = scratch.first(chunks.chunks);
+    executor(chunks.chunks, ReduceChunk<T, Map, Combine>{chunks, map, combine, neutral, partial});
+    executor(1, ReducePartial<T, Combine>{partial, combine, neutral, result});
+}
+
+} // namespace gpu

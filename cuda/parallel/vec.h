@@ -1,0 +1,22 @@
+#pragma once
+
+// Vectors of floats.
+
+#include "cuda/parallel/host_device.h"
+
+#if defined(__CUDACC__)
+#pragma nv_diagnostic push
+#pragma nv_diag_suppress 20012 // GLM marks defaulted constructors for the device, which says nothing
+#endif
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#if defined(__CUDACC__)
+#pragma nv_diagnostic pop
+#endif
+
+namespace gpu {
+
+using Vec3 = glm::vec3;
+
+} // namespace gpu

@@ -1,0 +1,50 @@
+#pragma once
+
+// Boxes of floats.
+
+#include "cuda/parallel/vec.h"
+
+namespace gpu {
+
+/// All points between two corners, faces included.
+struct Box {
+    Vec3 lower;
+    Vec3 upper;
+};
+
+/// The neutral element of `unite`.
+HD inline Box empty_box()
+{
+    constexpr float infinity = __builtin_huge_valf();
+    return {Vec3(infinity), Vec3(-infinity)};
+}
+
+/// The smallest box around both; rounds nothing.
+HD inline Box unite(const Box& a, const Box& b)
+{
+    return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)};
+}
+
+HD inline bool is_empty(const Box& box)
+{
+    return box.lower.x > box.upper.x || box.lower.y > box.upper.y || box.lower.z > box.upper.z;
+}
+
+/// Whether no coordinate is infinite or NaN: for those x - x is NaN.
+HD inline bool is_finite(const Vec3& v)
+{
+    return v.x - v.x == 0 && v.y - v.y == 0 && v.z - v.z == 0;
+}
+
+HD inline bool is_finite(const Box& box)
+{
+    return is_finite(box.lower) && is_finite(box.upper);
+}
+
+/// The middle. Halves before it adds: does not overflow.
+HD inline Vec3 centroid(const Box& box)
+{
+    return 0.5f * box.lower + 0.5f * box.upper;
+}
+
+} // namespace gpu

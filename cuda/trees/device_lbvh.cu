@@ -1,0 +1,139 @@
+#include "cuda/trees/device_lbvh.h"
+
+#include "cuda/device.h"
+#include "cuda/parallel/device_memory.cuh"
+#include "cuda/parallel/executor.cuh"
+#include "cuda/parallel/primitives.cuh"
+#include "cuda/trees/lbvh.h"
+
+#include <utility>
+#include <variant>
+
+namespace gpu {
+
+namespace {
+
+/// A stream that ends with its owner.
+class Stream {
+public:
+    Stream() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }
+    ~Stream() { cudaStreamDestroy(stream_); }
+    Stream(const Stream&) = delete;
+    Stream& operator=(const Stream&) = delete;
+    [[nodiscard]] cudaStream_t get() const { return stream_; }
+
+private:
+    cudaStream_t stream_{};
+};
+
+/// A point of time on a stream.
+class Event {
+public:
+    Event() { check(cudaEventCreate(&event_)); }
+    ~Event() { cudaEventDestroy(event_); }
+    Event(const Event&) = delete;
+    Event& operator=(const Event&) = delete;
+    void record(cudaStream_t stream) const { check(cudaEventRecord(event_, stream)); }
+    [[nodiscard]] float milliseconds_since(const Event& start) const
+    {
+        float milliseconds = 0;
+        check(cudaEventSynchronize(event_));
+        check(cudaEventElapsedTime(&milliseconds, start.event_, event_));
+        return milliseconds;
+    }
+
+private:
+    cudaEvent_t event_{};
+};
+
+using EitherTree = std::variant<Lbvh<std::uint32_t>, Lbvh<std::uint64_t>>;
+
+EitherTree tree_for(Memory& memory, const CudaExecutor& executor, std::uint32_t capacity, int code_bits)
+{
+    if (code_bits == gpu::code_bits<std::uint32_t>)
+        return EitherTree(std::in_place_index<0>, memory, executor, capacity);
+    return EitherTree(std::in_place_index<1>, memory, executor, capacity);
+}
+
+} // namespace
+
+struct DeviceLbvh::Parts {
+    Parts(std::uint32_t capacity, int code_bits)
+        : tree(tree_for(memory, executor, capacity, code_bits)), boxes(memory, capacity)
+    {}
+    /// The boxes of the last build, on the device.
+    [[nodiscard]] std::span<const Box> current() const { return boxes.first(count); }
+
+    Stream stream;
+    DeviceMemory memory{stream.get()};
+    CudaExecutor executor{stream.get()};
+    EitherTree tree;
+    Buffer<Box> boxes;
+    std::size_t count = 0;
+};
+
+DeviceLbvh::DeviceLbvh(std::uint32_t capacity, int code_bits)
+{
+    if (const Device device = find_device(); !device.usable)
+        throw std::runtime_error(device.description);
+    parts_ = std::make_unique<Parts>(capacity, code_bits);
+}
+
+DeviceLbvh::~DeviceLbvh() = default;
+
+void DeviceLbvh::build(std::span<const Box> boxes)
+{
+    parts_->boxes.write(boxes);
+    parts_->count = boxes.size();
+    std::visit([&](auto& tree) { tree.build(parts_->executor, parts_->current()); }, parts_->tree);
+}
+
+void DeviceLbvh::build_as_graph()
+{
+    const cudaStream_t stream = parts_->stream.get();
+    cudaGraph_t graph{};
+    cudaGraphExec_t ready{};
+    check(cudaStreamBeginCapture(stream, cudaStreamCaptureModeThreadLocal));
+    std::visit([&](auto& tree) { tree.build(parts_->executor, parts_->current()); }, parts_->tree);
+    check(cudaStreamEndCapture(stream, &graph));
+    check(cudaGraphInstantiate(&ready, graph, 0));
+    check(cudaGraphLaunch(ready, stream));
+    check(cudaStreamSynchronize(stream));
+    check(cudaGraphExecDestroy(ready));
+    check(cudaGraphDestroy(graph));
+}
+
+std::array<float, 5> DeviceLbvh::time_stages()
+{
+    std::array<Event, 6> events;
+    events[0].record(parts_->stream.get());
+    const auto finished = [&](Stage stage) {
+        events[static_cast<std::size_t>(stage) + 1].record(parts_->stream.get());
+    };
+    std::visit([&](auto& tree) { tree.build(parts_->executor, parts_->current(), finished); },
+               parts_->tree);
+    std::array<float, 5> milliseconds{};
+    for (std::size_t i = 0; i < 5; ++i) milliseconds[i] = events[i + 1].milliseconds_since(events[i]);
+    return milliseconds;
+}
+
+BuiltTree DeviceLbvh::download() const
+{
+    const auto read = [&](auto device) {
+        std::vector<std::remove_const_t<typename decltype(device)::element_type>> host(device.size());
+        if (!host.empty()) parts_->memory.read(host.data(), device.data(), device.size_bytes());
+        return host;
+    };
+    return std::visit(
+        [&](const auto& tree) {
+            throw_if_rejected(tree.first_rejected(), read(parts_->current()));
+            const auto codes = read(tree.codes());
+            return BuiltTree{read(tree.nodes()),
+                             read(tree.leaf_links()),
+                             read(tree.primitives()),
+                             {codes.begin(), codes.end()}};
+        },
+        parts_->tree);
+}
+
+} // namespace gpu

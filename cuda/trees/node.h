@@ -1,0 +1,43 @@
+#pragma once
+
+// What a tree is made of: nothing but inner nodes, each with the boxes of its two children, so that a
+// ray decides about both of them from one aligned line of 64 bytes, and so that a box is written once,
+// by the thread that knows it, to where it will be read.
+
+#include "cuda/trees/box.h"
+
+#include <cstdint>
+
+namespace gpu {
+
+constexpr std::uint32_t no_node = 0xffff'ffff;
+
+/// More primitives than this could overflow the search for a range (radix_tree.h).
+constexpr std::uint32_t most_primitives = 1u << 29;
+
+/// Names a node from above: an inner node by its number, a leaf by its number and the highest bit.
+constexpr std::uint32_t leaf_bit = 0x8000'0000;
+
+HD constexpr bool is_leaf(std::uint32_t child)
+{
+    return (child & leaf_bit) != 0;
+}
+
+/// Names a node from below: twice the number of its parent, plus 1 for the right child.
+HD constexpr std::uint32_t link_to(std::uint32_t parent, std::uint32_t side)
+{
+    return parent << 1 | side;
+}
+
+/// Inner node i of a tree over n primitives, 0 <= i < n - 1; node 0 is the root. Leaf l holds
+/// primitives[l], leaves being numbered from left to right, and has no node. A tree over one primitive
+/// has none at all.
+struct alignas(64) Node {
+    Box bounds[2];
+    std::uint32_t children[2];
+    std::uint32_t link;     // to the parent; no_node for the root
+    std::uint32_t arrivals; // 0 but during a refit
+};
+static_assert(sizeof(Node) == 64);
+
+} // namespace gpu

@@ -1,0 +1,41 @@
+#pragma once
+
+// Boxes from the leaves up to the root [Karras 2012, sec. 4; the counting after Apetrei 2014].
+
+#include "cuda/parallel/atomic.h"
+#include "cuda/trees/node.h"
+
+#include <cstdint>
+#include <span>
+
+namespace gpu {
+
+/// Kernel over leaves: walks from a leaf towards the root and writes, at every node, the box of the
+/// child that it comes from. Of the two walks that arrive at a node the first stops there; the second
+/// finds both boxes written and carries their union on.
+///
+/// `arrive_at` is a parameter so that tests can show what a wrong one does.
+template <std::uint32_t (*arrive_at)(std::uint32_t&) = arrive>
+struct RefitBounds {
+    std::span<const Box> boxes;
+    std::span<const std::uint32_t> primitives; // one per leaf
+    std::span<const std::uint32_t> leaf_links;
+    std::span<Node> nodes;
+
+    HD void operator()(std::uint32_t leaf) const
+    {
+        Box box = boxes[primitives[leaf]];
+        for (std::uint32_t link = leaf_links[leaf]; link != no_node;) {
+            Node& node = nodes[link >> 1];
+            node.bounds[link & 1] = box;
+            // Releases the box just written, and acquires the sibling's if that was there first: without
+            // this order the union below could be taken of a box that is not there yet.
+            if (arrive_at(node.arrivals) == 0) return;
+            node.arrivals = 0; // nobody else comes here: ready for the next refit
+            box = unite(node.bounds[0], node.bounds[1]);
+            link = node.link;
+        }
+    }
+};
+
+} // namespace gpu

@@ -1,0 +1,32 @@
+#pragma once
+
+// Triangles and their boxes.
+
+#include "cuda/trees/box.h"
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace gpu {
+
+struct Triangle {
+    Vec3 vertices[3];
+};
+
+/// Kernel over triangles. Minimum and maximum would swallow a vertex that is NaN: such a triangle gets a
+/// box that is NaN, too, and will be rejected by its number.
+struct BoundTriangles {
+    std::span<const Triangle> triangles;
+    std::span<Box> boxes;
+
+    HD void operator()(std::uint32_t i) const
+    {
+        const auto& v = triangles[i].vertices;
+        const Box box{glm::min(glm::min(v[0], v[1]), v[2]), glm::max(glm::max(v[0], v[1]), v[2])};
+        const bool finite = is_finite(v[0]) && is_finite(v[1]) && is_finite(v[2]);
+        boxes[i] = finite ? box : Box{Vec3(std::numeric_limits<float>::quiet_NaN()), box.upper};
+    }
+};
+
+} // namespace gpu
