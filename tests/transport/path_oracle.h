@@ -7,6 +7,8 @@
 
 #include "scenes/scene.h"
 
+#include <glm/geometric.hpp>
+
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +27,20 @@ struct Place {
 
 /// x_0 (on the emitter) to x_k (the eye).
 using Places = std::vector<Place>;
+
+/// Whether the place is infinitely far away: a direction.
+inline bool is_infinite(const Place& place)
+{
+    return place.kind == Place::Kind::directional || place.kind == Place::Kind::environment;
+}
+
+/// The unit direction from a to b, at most one of them infinitely far away.
+inline Vec3 towards(const Place& a, const Place& b)
+{
+    if (is_infinite(b)) return b.position;
+    if (is_infinite(a)) return -a.position;
+    return glm::normalize(b.position - a.position);
+}
 
 struct Judgement {
     /// f(x) [Veach 1997, eq. 8.7], for the mean radiance over a picture of one pixel: per solid angle of
