@@ -1,17 +1,15 @@
-// Every strategy (s, t) by itself, unweighted: on scenes where it can make every path of s + t - 1
-// edges, its mean is all light of that length. The emission hit and next event walk as the path tracer
-// does, from the same numbers, and are compared sample by sample; the others by means, against closed
-// forms where there are any.
+// Every strategy (s, t) by itself, unweighted, sample by sample: what walks as the path tracer or the
+// light tracer does, from the same numbers, must be what they find; what is known in closed form must be
+// that. Means of the others: light_strategies_test.cpp.
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
-#include "tests/transport/estimate.h"
 #include "tests/transport/scene_files.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 namespace {
@@ -20,39 +18,8 @@ using ref::Contribution;
 using ref::Rgb;
 
 constexpr int longest = 6;
-constexpr int strategies = (longest + 1) * (longest + 1);
 
-/// One class per strategy of 1 ... `longest` edges.
-int strategy(int s, int t)
-{
-    return s * (longest + 1) + t - 1;
-}
-
-int classify(const Contribution& c)
-{
-    return edges(c) <= longest ? strategy(c.s, c.t) : -1;
-}
-
-/// PLUMBLINE_LONG multiplies the samples, for a night's run; bounds on the detectable bias stay.
-int effort()
-{
-    return std::getenv("PLUMBLINE_LONG") != nullptr ? 16 : 1;
-}
-
-scenes::Scene scene_for_strategies(const std::string& name)
-{
-    scenes::Scene scene = tests::our_scene(name);
-    if (name == "furnace_grey") { // all spheres grey: nothing is delta, and more than two edges matter
-        for (auto& sphere : scene.spheres) {
-            sphere.material = scene.spheres[0].material;
-            sphere.center.x /= 4.0;
-        }
-        scene.camera->eye.y /= 4.0;
-        scene.camera->fov = 1.2;
-    }
-    return scene;
-}
-
+/// Emission hits and next events of one sample, by length.
 std::vector<Contribution> sample(const ref::World& world, ref::Integrator integrator,
                                  const ref::PathOptions& options, const ref::SampleId& id)
 {
@@ -101,76 +68,34 @@ TEST_P(EyeStrategies, AreThoseOfThePathTracerSampleBySample)
     EXPECT_EQ(compared > 50, !only_light_walks_see);
 }
 
-/// A scene, how it is sampled, and which relative bias a comparison of whole pictures finds with 99%
-/// power (quarters of the picture: three times that). A joined pair of vertices in a corner counts with
-/// 1 / d^2, of which the variance has no bound: connections alone are known less well than the rest.
-struct Case {
-    const char* name;
-    const char* scene;
-    int batch_size; // samples per pixel of each of 32 batches; the reference has four times as many
-    int edges;      // the longest paths compared
-    double light_image, inner;
-};
+class LightTracing : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, LightTracing,
+                         testing::Values("cornell_glass", "all_emitters", "light_in_glass",
+                                         "integrating_sphere"),
+                         [](const auto& name) { return std::string(name.param); });
 
-std::ostream& operator<<(std::ostream& out, const Case& c)
+// The same walks, the same function: not a bit is different but the weights, which are 1.
+TEST_P(LightTracing, IsTheLightImageAlone)
 {
-    return out << c.name;
-}
-
-class LightStrategies : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, LightStrategies,
-    testing::Values(Case{"integrating_sphere", "integrating_sphere", 8, 5, 0.08, 0.02},
-                    Case{"integrating_sphere_lamp", "integrating_sphere_lamp", 8, 4, 0.16, 0.08},
-                    Case{"cornell_diffuse", "cornell_diffuse", 6, 4, 0.12, 0.6},
-                    Case{"cornell_diffuse_short", "cornell_diffuse", 32, 2, 0.03, 0.03},
-                    Case{"furnace_grey", "furnace_grey", 32, 2, 0.05, 0.05},
-                    Case{"sphere_over_plane", "sphere_over_plane", 64, 2, 0.03, 0.03},
-                    Case{"all_emitters", "all_emitters", 48, 2, 0.15, 0.15},
-                    Case{"ceiling_lamp", "ceiling_lamp", 6, 4, 0.2, 0.3}),
-    [](const auto& name) { return std::string(name.param.name); });
-
-TEST_P(LightStrategies, MakeAllLightOfTheirLength)
-{
-    const Case& c = GetParam();
-    const scenes::Scene scene = scene_for_strategies(c.scene);
-    constexpr int width = 24;
-    constexpr int height = 16;
-    const ref::World world(scene, width, height);
-    const tests::EstimateOptions options{.batches = 32,
-                                         .batch_size = c.batch_size * effort(),
-                                         .weighted = false,
-                                         .path = {.seed = 31, .max_edges = c.edges, .roulette = false}};
-    tests::EstimateOptions reference = options;
-    reference.weighted = true;
-    reference.batch_size *= 4;
-    reference.path.seed = 32;
-    const auto by_strategy =
-        tests::estimate(world, ref::trace_bidirectionally, options, strategies, classify);
-    const auto by_length = tests::estimate(world, ref::trace_path, reference, longest + 1,
-                                           [](const Contribution& p) { return edges(p); });
-    for (int k = 1; k <= c.edges; ++k)
-        for (int s = 1; s <= k; ++s) {
-            const int t = k + 1 - s;
-            if (s == 1 && t > 1) continue; // next event: see above
-            SCOPED_TRACE("s = " + std::to_string(s) + ", t = " + std::to_string(t));
-            const auto& light = by_strategy[static_cast<std::size_t>(strategy(s, t))];
-            const auto& eye = by_length[static_cast<std::size_t>(k)];
-            // What is longer is darker and noisier.
-            const double specification = (t == 1 ? c.light_image : c.inner) / std::sqrt(effort());
-            for (int channel = 0; channel < 3; ++channel)
-                tests::expect_equal_means(tests::measure(light, {0, 0, width, height}, channel),
-                                          tests::measure(eye, {0, 0, width, height}, channel),
-                                          specification);
-            for (const tests::Region& quarter : {tests::Region{0, 0, width / 2, height / 2},
-                                                 {width / 2, 0, width, height / 2},
-                                                 {0, height / 2, width / 2, height},
-                                                 {width / 2, height / 2, width, height}}) {
-                const auto part = tests::measure(eye, quarter, 1);
-                if (part.mean < 0.1 * tests::measure(eye, {0, 0, width, height}, 1).mean) continue;
-                tests::expect_equal_means(tests::measure(light, quarter, 1), part, 3.0 * specification);
-            }
-        }
+    const scenes::Scene scene = tests::our_scene(GetParam());
+    const ref::World world(scene, 24, 16);
+    std::vector<Contribution> light;
+    std::vector<Contribution> both;
+    for (std::uint32_t i = 0; i < 24 * 16 * 4; ++i) {
+        const ref::SampleId id{12, i % (24 * 16), i};
+        trace_light(world, {.seed = 12, .max_edges = longest}, id, light);
+        trace_bidirectionally(world, {.seed = 12, .max_edges = longest}, id, both);
+    }
+    std::erase_if(both, [](const Contribution& c) { return c.t != 1; });
+    ASSERT_GT(light.size(), 50U);
+    ASSERT_EQ(light.size(), both.size());
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        EXPECT_EQ(light[i].s, both[i].s);
+        EXPECT_EQ(light[i].t, 1);
+        EXPECT_EQ(light[i].pixel, both[i].pixel);
+        EXPECT_EQ(light[i].value, both[i].value);
+        EXPECT_EQ(light[i].weight, 1.0);
+    }
 }
 
 // In the integrating sphere every pair of points of the wall exchanges the same light,
