@@ -3,10 +3,10 @@
 // Is this picture right? A candidate is judged against a golden, with a known chance of a false alarm,
 // and says what it could have seen. docs/comparison.md explains each step.
 
+#include "golden/finding.h"
 #include "golden/functionals.h"
 #include "golden/golden.h"
 #include "golden/image.h"
-#include "golden/statistics.h"
 
 #include <array>
 #include <cstddef>
@@ -20,26 +20,6 @@ namespace golden {
 
 enum class Verdict { pass, fail, inconclusive };
 std::string describe(Verdict verdict); // "PASS", "FAIL", "INCONCLUSIVE"
-
-/// What is known of the candidate's noise, and so how means are compared.
-enum class Method {
-    ranks,  // same estimator, same batch size: batches are distributed alike. Mann-Whitney
-    welch,  // another estimator, of which there are several independent pictures. Welch's t
-    picture // a single picture with a stated number of samples. Welch's t with an assumed noise
-};
-std::string describe(Method method);
-
-struct CompareOptions {
-    double accuse = 0.01;         // chance that a right picture's first stage finds something to confirm
-    double confirm = 1e-5;        // level of each later stage, at which one suspicion alone is tested
-    double convict = 1e-8;        // level at which one stage is enough for FAIL
-    double specification = 0.005; // relative error of the whole picture that must be detectable to pass
-    double power = 0.99;          // with this probability
-    double confidence = 0.99;     // of the intervals of ratios
-    double rounding = 2e-6;       // relative difference that is put down to single precision
-    double skewness = 0.15;       // |skewness| / sqrt(batches) up to which a t test is believed
-    std::vector<std::uint64_t> stages = {64, 256}; // batches of each
-};
 
 /// The batches of one stage of a candidate, seen through a golden's functionals, which must outlive it.
 class Candidate {
@@ -62,23 +42,6 @@ private:
     std::vector<Row> rows_;
 };
 
-/// What the first stage says about one region, seen through one weight in one channel.
-struct Finding {
-    Region region;
-    Weight weight;
-    std::size_t functional; // its number among the golden's functionals
-    std::size_t channel;    // 0 red, 1 green, 2 blue
-    bool conclusive;        // false: too skewed for a t test. It then counts for nothing
-    TestResult test;        // z > 0: the candidate is brighter
-    double adjusted_p;      // Bonferroni over channels, families and the members of the family
-    double ratio;           // candidate / golden, of the functional's values; NaN where the golden is 0
-    Interval interval;      // of the ratio
-    double detectable;      // smallest relative error found with the stated power; NaN if not defined
-};
-
-/// "green of tile x 16..31, y 0..15 (matched)"
-std::string describe(const Finding& finding);
-
 /// One stage, and what it said about the suspicion: the finding with the smallest adjusted p-value.
 struct Stage {
     std::uint64_t batches;
@@ -99,7 +62,8 @@ struct Comparison {
     std::array<double, 3> detectable{};
     /// The finding of the stratum in which the smallest detectable error is largest.
     std::optional<std::size_t> blindest_stratum;
-    double coverage = 1.0; // share of the findings that are conclusive
+    double false_alarm = 0.0; // at most this chance has a right picture to FAIL
+    double coverage = 1.0;    // share of the findings that are conclusive
     /// Method::picture: the variance that the picture shows between neighbouring pixels over the one
     /// assumed, in the whole picture.
     std::optional<double> noise_ratio;

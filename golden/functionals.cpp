@@ -259,7 +259,7 @@ double Functionals::spread(std::size_t functional, std::size_t channel) const
     return standards_[channel][functional].spread;
 }
 
-Row Functionals::evaluate(const Image& batch) const
+void Functionals::check(const Image& batch) const
 {
     if (batch.width != width() || batch.height != height() ||
         batch.pixels.size() != pilot_.mean.pixels.size())
@@ -269,23 +269,53 @@ Row Functionals::evaluate(const Image& batch) const
     if (const auto place = first_non_finite(batch))
         throw std::invalid_argument("pixel (" + std::to_string(place->x) + ", " +
                                     std::to_string(place->y) + ") is NaN or infinite");
+}
+
+double Functionals::bounded(std::size_t pixel, int channel, double value) const
+{
+    const double light = std::max(0.0, value);
+    const double m = std::max(0.0, pilot_.mean.pixels[pixel][channel]);
+    // Where the pilot is black, black is in the middle: it is what is expected there.
+    return light + m > 0.0 ? light / (light + m) : 0.5;
+}
+
+Row Functionals::evaluate(const Image& batch) const
+{
+    check(batch);
     Row row;
     row.reserve(channels * size());
     for (std::size_t channel = 0; channel < channels; ++channel) {
         const auto c = static_cast<int>(channel);
         const Sums sums = sum_over_regions([&](std::size_t i) -> std::array<double, 3> {
             const double value = batch.pixels[i][c];
-            const double light = std::max(0.0, value);
-            const double m = std::max(0.0, pilot_.mean.pixels[i][c]);
-            // Where the pilot is black, black is in the middle: it is what is expected there.
-            const double bounded = light + m > 0.0 ? light / (light + m) : 0.5;
-            return {matched_[i][c] * value, value, bounded};
+            return {matched_[i][c] * value, value, bounded(i, c, value)};
         });
         for (std::size_t f = 0; f < size(); ++f) {
             const Standard& standard = standards_[channel][f];
             const double value = standard.scale * sums[f / weights.size()][f % weights.size()];
             row.push_back(
                 static_cast<float>(rounded_to_half((value - standard.expected) / standard.spread)));
+        }
+    }
+    return row;
+}
+
+Row Functionals::slopes(const Image& batch) const
+{
+    check(batch);
+    Row row;
+    for (std::size_t channel = 0; channel < channels; ++channel) {
+        const auto c = static_cast<int>(channel);
+        // The derivative of (1 + e) c / ((1 + e) c + m) by e at 0 is b (1 - b).
+        const Sums sums = sum_over_regions([&](std::size_t i) -> std::array<double, 3> {
+            const double value = batch.pixels[i][c];
+            const double b = bounded(i, c, value);
+            return {0.0, 0.0, value > 0.0 ? b * (1.0 - b) : 0.0};
+        });
+        for (std::size_t f = 0; f < size(); ++f) {
+            const Standard& standard = standards_[channel][f];
+            const double slope = standard.scale * sums[f / weights.size()][f % weights.size()];
+            row.push_back(static_cast<float>(rounded_to_half(slope / standard.spread)));
         }
     }
     return row;

@@ -98,6 +98,10 @@ public:
     /// or infinite.
     [[nodiscard]] Row evaluate(const Image& batch) const;
 
+    /// By how much each value of a row moves per relative error of the whole picture, for the bounded
+    /// functionals, as this batch tells; 0 for the linear ones. Throws as evaluate.
+    [[nodiscard]] Row slopes(const Image& batch) const;
+
     /// The pixel's share in a linear functional of its channel is weight * value; 0 outside the region.
     [[nodiscard]] double pixel_weight(std::size_t functional, std::size_t channel,
                                       std::size_t pixel) const;
@@ -112,6 +116,9 @@ private:
 
     void lay_out_regions();
     void weigh();
+    void check(const Image& batch) const;
+    /// c / (c + m), for a value c of the pixel.
+    [[nodiscard]] double bounded(std::size_t pixel, int channel, double value) const;
     [[nodiscard]] bool contains(const Region& region, std::size_t pixel) const;
     /// The sums over tiles and the whole picture, once those over fine tiles and strata are there.
     void sum_up(Sums& sums) const;

@@ -58,6 +58,7 @@ void add_rows(Layers& layers, const std::vector<Row>& rows, const Functionals& f
     }
 }
 
+/// `batches`: with the slopes, one more than those of the reference.
 std::vector<Row> read_rows(const fs::path& path, const Layers& layers, const Functionals& functionals,
                            std::uint64_t batches)
 {
@@ -66,7 +67,7 @@ std::vector<Row> read_rows(const fs::path& path, const Layers& layers, const Fun
     // Before memory is asked for: do the layers hold so many?
     const std::size_t layers_needed = (batches * count + pixels - 1) / pixels;
     if (batches > layers.size() * pixels / count || !layers.contains(reference_layer(layers_needed - 1)))
-        throw ImageError(path, "damaged golden: says it holds " + std::to_string(batches) +
+        throw ImageError(path, "damaged golden: says it holds " + std::to_string(batches - 1) +
                                    " reference batches, and does not");
     std::vector<Row> rows(batches, Row(channels * count));
     for (std::size_t at = 0; at < batches * count; ++at) {
@@ -137,9 +138,15 @@ Golden read_golden(const fs::path& path)
     if (!picture.standard_error) throw ImageError(path, "not a golden: has no standard error");
     const std::uint64_t batches = find_number(path, picture.metadata, reference_batches_key);
     if (batches < 1) throw ImageError(path, "not a finished golden: no batch after its pilot");
-    std::vector<Row> rows = read_rows(path, picture.layers, functionals, batches);
-    return {std::move(picture.mean), std::move(*picture.standard_error), std::move(picture.metadata),
-            std::move(functionals), std::move(rows)};
+    std::vector<Row> rows = read_rows(path, picture.layers, functionals, batches + 1);
+    Row slopes = std::move(rows.back());
+    rows.pop_back();
+    return {std::move(picture.mean),
+            std::move(*picture.standard_error),
+            std::move(picture.metadata),
+            std::move(functionals),
+            std::move(rows),
+            std::move(slopes)};
 }
 
 GoldenMaker::GoldenMaker(int width, int height, std::uint64_t pilot_batches)
@@ -162,7 +169,10 @@ GoldenMaker GoldenMaker::resume(const fs::path& path)
     const std::uint64_t batches = maker.film_.batches() - pilot_batches;
     if (batches != find_number(path, picture.metadata, reference_batches_key))
         throw ImageError(path, "damaged golden: its film and its reference differ in length");
-    if (batches > 0) maker.reference_ = read_rows(path, picture.layers, *maker.functionals_, batches);
+    if (batches == 0) return maker;
+    maker.reference_ = read_rows(path, picture.layers, *maker.functionals_, batches + 1);
+    maker.slopes_ = std::move(maker.reference_.back());
+    maker.reference_.pop_back();
     return maker;
 }
 
@@ -174,6 +184,7 @@ void GoldenMaker::add_batch(const Image& batch)
                                     ") is NaN or infinite");
     Row row;
     if (functionals_) row = functionals_->evaluate(batch);
+    if (functionals_ && reference_.empty()) slopes_ = functionals_->slopes(batch);
     film_.add_batch(batch);
     if (functionals_) reference_.push_back(std::move(row));
     if (film_.batches() == pilot_batches_) functionals_.emplace(make_pilot(film_));
@@ -184,8 +195,12 @@ Golden GoldenMaker::golden(const Metadata& metadata) const
     if (reference_.empty()) throw std::invalid_argument("a golden needs batches after its pilot");
     Metadata all = metadata;
     describe(all);
-    return {in_single_precision(film_.mean()), in_single_precision(film_.standard_error()),
-            std::move(all), *functionals_, reference_};
+    return {in_single_precision(film_.mean()),
+            in_single_precision(film_.standard_error()),
+            std::move(all),
+            *functionals_,
+            reference_,
+            slopes_};
 }
 
 void GoldenMaker::describe(Metadata& metadata) const
@@ -206,7 +221,9 @@ void GoldenMaker::write(const fs::path& path, const Metadata& metadata, FilmStat
     if (functionals_) {
         layers[pilot_mean_layer] = functionals_->pilot().mean;
         half_layers[pilot_noise_layer] = functionals_->pilot().noise;
-        add_rows(half_layers, reference_, *functionals_);
+        std::vector<Row> rows = reference_;
+        if (!rows.empty()) rows.push_back(slopes_);
+        add_rows(half_layers, rows, *functionals_);
     }
     write_exr(path, film_, all, layers, state, half_layers);
 }

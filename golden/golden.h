@@ -7,7 +7,8 @@
 //   pilot.noise.R ...       their relative standard deviation, sqrt(v) / m
 //   reference.NNN.R ...     the standardised functionals (see functionals.h) of the batches after the
 //                           pilot, channel by channel: first all of one batch, then all of the next,
-//                           row by row through the layers 000, 001, ...; the rest is 0
+//                           row by row through the layers 000, 001, ...; then, in the same way, their
+//                           slopes; the rest is 0
 //   attributes plumbline.golden.pilot_batches, .reference_batches, .functionals
 //
 // R, G, B and se are the mean over all batches and its standard error, as in any picture of ours.
@@ -29,6 +30,7 @@ struct Golden {
     Metadata metadata;
     Functionals functionals;
     std::vector<Row> reference; // the functionals of each batch after the pilot
+    Row slopes;                 // see Functionals::slopes, of the first of these batches
 };
 
 /// Reads a golden. Throws ImageError for what is none, with the reason.
@@ -67,6 +69,7 @@ private:
     std::uint64_t pilot_batches_;
     std::optional<Functionals> functionals_; // once the pilot is complete
     std::vector<Row> reference_;
+    Row slopes_; // of the first batch after the pilot: a mean over pixels needs no more
 };
 
 } // namespace golden

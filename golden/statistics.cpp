@@ -108,6 +108,55 @@ double exact_p(std::size_t n, std::size_t m, double u)
     return std::min(1.0, 2.0 * tail / all);
 }
 
+/// The smallest effect that is found often enough. change(value, e) is what an effect makes of a value;
+/// to first order it moves the mean by e `slope`.
+template <class Change>
+double detectable_effect(std::span<const double> reference, double count, double alpha, double power,
+                         double slope, const Change& change)
+{
+    const auto m = static_cast<double>(reference.size());
+    if (reference.empty() || !(count > 0.0)) return infinity;
+    // By how much P(larger) + P(equal) / 2 must exceed 1/2.
+    const double needed = (normal_quantile(alpha / 2.0) + normal_quantile(1.0 - power)) *
+                          std::sqrt((count + m + 1.0) / (12.0 * count * m));
+    if (needed >= 0.5) return infinity;
+    std::vector<double> changed(reference.size());
+    const auto excess = [&](double e) {
+        std::transform(reference.begin(), reference.end(), changed.begin(),
+                       [&](double value) { return change(value, e); });
+        return rank(changed, reference, 0.0).u / (m * m) - 0.5;
+    };
+    // For a normal distribution the excess is e slope / (2 sqrt(pi) sigma) to first order: begin there.
+    constexpr double smallest = 1e-12; // of samples without noise
+    constexpr double largest = 100.0;
+    const double sigma = std::sqrt(moments(reference).variance);
+    double high =
+        std::clamp(needed * 2.0 * std::sqrt(std::numbers::pi) * sigma / slope, smallest, largest);
+    // Mostly the excess grows in proportion, and two or three steps lead there.
+    for (int step = 0; step < 4; ++step) {
+        const double found = excess(high);
+        if (found >= needed && found <= 1.02 * needed) return high;
+        if (found < 0.25 * needed || found > 4.0 * needed) break;
+        high = std::clamp(high * 1.01 * needed / found, smallest, largest);
+    }
+    double low = high;
+    while (excess(high) < needed) {
+        if (high >= largest) return infinity;
+        low = high;
+        high *= 1.25;
+    }
+    while (low == high || excess(low) >= needed) {
+        if (low <= smallest) return high;
+        high = low;
+        low /= 1.25;
+    }
+    while (high - low > 0.02 * high) { // two digits are more than the next golden would repeat
+        const double middle = (low + high) / 2.0;
+        (excess(middle) >= needed ? high : low) = middle;
+    }
+    return high;
+}
+
 } // namespace
 
 Moments moments(std::span<const double> values)
@@ -208,6 +257,27 @@ double bonferroni(double p, double comparisons)
     return std::min(1.0, p * comparisons);
 }
 
+double all_exceed(std::span<const double> counts, std::span<const double> levels, double reference_count)
+{
+    // Given the reference's error r in its own standard deviations, the samples are independent. Over r
+    // the trapezoidal rule converges faster than any power of the step, as the integrand is analytic and
+    // vanishes with all derivatives at both ends.
+    constexpr double reach = 10.0; // beyond it the normal density is below 1e-22
+    constexpr double step = 0.05;
+    const double reference_error = 1.0 / std::sqrt(reference_count);
+    double sum = 0.0;
+    for (double r = -reach; r <= reach; r += step) {
+        double product = std::exp(-r * r / 2.0) / std::sqrt(2.0 * std::numbers::pi);
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            const double error = 1.0 / std::sqrt(counts[i]);
+            const double threshold = normal_quantile(levels[i]) * std::hypot(error, reference_error);
+            product *= normal_tail((threshold - r * reference_error) / error);
+        }
+        sum += product * step;
+    }
+    return sum;
+}
+
 double detectable_difference(double standard_error, double degrees, double alpha, double power)
 {
     return standard_error *
@@ -216,47 +286,14 @@ double detectable_difference(double standard_error, double degrees, double alpha
 
 double detectable_scale(std::span<const double> reference, double count, double alpha, double power)
 {
-    const auto m = static_cast<double>(reference.size());
-    if (reference.empty() || !(count > 0.0)) return infinity;
-    // By how much P(larger) + P(equal) / 2 must exceed 1/2.
-    const double needed = (normal_quantile(alpha / 2.0) + normal_quantile(1.0 - power)) *
-                          std::sqrt((count + m + 1.0) / (12.0 * count * m));
-    if (needed >= 0.5) return infinity;
-    std::vector<double> scaled(reference.size());
-    const auto excess = [&](double e) {
-        std::transform(reference.begin(), reference.end(), scaled.begin(),
-                       [e](double value) { return (1.0 + e) * value; });
-        return rank(scaled, reference, 0.0).u / (m * m) - 0.5;
-    };
-    // For a normal distribution the excess is e mean / (2 sqrt(pi) sigma) to first order: begin there.
-    const Moments shape = moments(reference);
-    double high = needed * 2.0 * std::sqrt(std::numbers::pi * shape.variance) / shape.mean;
-    constexpr double smallest = 1e-12; // of samples without noise
-    constexpr double largest = 100.0;
-    high = std::clamp(high, smallest, largest);
-    // Mostly the excess grows in proportion, and two or three steps lead there.
-    for (int step = 0; step < 4; ++step) {
-        const double found = excess(high);
-        if (found >= needed && found <= 1.02 * needed) return high;
-        if (found < 0.25 * needed || found > 4.0 * needed) break;
-        high = std::clamp(high * 1.01 * needed / found, smallest, largest);
-    }
-    double low = high;
-    while (excess(high) < needed) {
-        if (high >= largest) return infinity;
-        low = high;
-        high *= 1.25;
-    }
-    while (low == high || excess(low) >= needed) {
-        if (low <= smallest) return high;
-        high = low;
-        low /= 1.25;
-    }
-    while (high - low > 0.02 * high) { // two digits are more than the next golden would repeat
-        const double middle = (low + high) / 2.0;
-        (excess(middle) >= needed ? high : low) = middle;
-    }
-    return high;
+    return detectable_effect(reference, count, alpha, power, moments(reference).mean,
+                             [](double value, double e) { return (1.0 + e) * value; });
+}
+
+double detectable_shift(std::span<const double> reference, double count, double alpha, double power)
+{
+    return detectable_effect(reference, count, alpha, power, 1.0,
+                             [](double value, double e) { return value + e; });
 }
 
 } // namespace golden

@@ -68,15 +68,25 @@ Interval ratio_interval(const MeanEstimate& a, const MeanEstimate& b, double con
 /// The p-value of the smallest of `comparisons` p-values, whatever their dependence [Bonferroni 1936].
 double bonferroni(double p, double comparisons);
 
+/// The chance that all of several samples exceed one and the same reference sample, each significantly
+/// at its own one-sided level, if all are alike: by `counts` normally distributed values each, and
+/// `reference_count`. Were the reference known exactly, it would be the product of the levels; its error
+/// is shared by all.
+double all_exceed(std::span<const double> counts, std::span<const double> levels,
+                  double reference_count);
+
 /// The difference that a two-sided t test at level `alpha` finds with probability `power`, if the
 /// difference is measured with this standard error. To first order: both quantiles are Student's.
 double detectable_difference(double standard_error, double degrees, double alpha, double power);
 
-/// The relative difference of scale that mann_whitney at level `alpha` finds with probability `power`,
-/// between `count` values and `reference`: the smallest e > 0 such that values distributed as
-/// (1 + e) `reference` exceed those of `reference` often enough. Infinite if there is none below 100,
-/// as is the case if even complete separation would not reach the level. `reference` sorted, positive
-/// mean.
+/// The smallest effect e > 0 that mann_whitney at level `alpha` finds with probability `power` between
+/// `count` values and `reference`, if it turns the distribution of `reference` into that of
+/// (1 + e) `reference`: such values must exceed those of `reference` often enough. Infinite if there is
+/// none below 100, as is the case if even complete separation would not reach the level. `reference`
+/// sorted, of positive mean.
 double detectable_scale(std::span<const double> reference, double count, double alpha, double power);
+
+/// The same for an effect that adds e to each value.
+double detectable_shift(std::span<const double> reference, double count, double alpha, double power);
 
 } // namespace golden

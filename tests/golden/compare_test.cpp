@@ -306,6 +306,16 @@ TEST_F(Compare, ASinglePictureNoisierThanItClaimsIsNotCondemnedForIt)
     EXPECT_GT(*result.noise_ratio, 100.0);
 }
 
+TEST_F(Compare, TheChanceOfAFalseAlarmIsStated)
+{
+    // One stage: the level of a conviction. Two: at least what both levels would give were the golden
+    // known exactly, and below one in a hundred thousand.
+    EXPECT_EQ(golden::compare(reference(), candidate(), Method::ranks).false_alarm, 1e-8);
+    const double two = golden::compare(reference(), stages({{}}), Method::ranks).false_alarm;
+    EXPECT_GE(two, 0.01 * 1e-6);
+    EXPECT_LT(two, 1e-5);
+}
+
 TEST_F(Compare, PicturesThatDoNotFitAreRefused)
 {
     Candidate candidate(reference().functionals);

@@ -180,6 +180,41 @@ TEST(Functionals, NoSampleMovesTheBoundedOnesFarHoweverBright)
     EXPECT_GT(after[0], 1000.0F); // while the matched one of the whole picture jumps
 }
 
+TEST(Functionals, SlopesAreTheDerivativesOfTheBoundedOnesByBrightness)
+{
+    const Functionals functionals(flat_pilot(16, 16, 1.0, 0.5));
+    Image batch(16, 16);
+    for (std::size_t i = 0; i < batch.pixels.size(); ++i)
+        batch.pixels[i] = Rgb(0.0, 0.01, 0.02) * static_cast<double>(i);
+    const auto scaled = [&](double factor) {
+        Image image = batch;
+        for (Rgb& pixel : image.pixels) pixel *= factor;
+        return functionals.evaluate(image);
+    };
+    const Row slopes = functionals.slopes(batch);
+    constexpr double h = 0.125;
+    const Row brighter = scaled(1.0 + h);
+    const Row darker = scaled(1.0 - h);
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t f = 0; f < functionals.size(); ++f) {
+            const std::size_t at = c * functionals.size() + f;
+            const auto slope = static_cast<double>(slopes[at]);
+            if (golden::is_linear(functionals.at(f).weight)) {
+                EXPECT_EQ(slope, 0.0);
+                continue;
+            }
+            const double quotient =
+                (static_cast<double>(brighter[at]) - static_cast<double>(darker[at])) / (2.0 * h);
+            // b = 1 / (1 + m / c): its third derivative by the logarithm of c is at most 1/8, so the
+            // quotient is off by h^2 / 48 of 1/4 at most, and the logarithm by h^2 / 3. Two roundings.
+            const double rounding = (std::abs(static_cast<double>(brighter[at])) +
+                                     std::abs(static_cast<double>(darker[at])) + 1.0) *
+                                    half_ulp / (2.0 * h);
+            EXPECT_NEAR(quotient, slope, 0.01 * slope + 0.01 + rounding);
+            EXPECT_EQ(slope > 0.0, c > 0) << "a black picture stays black";
+        }
+}
+
 TEST(Functionals, LightWhereThePilotIsBlackIsSeen)
 {
     const Functionals functionals(flat_pilot(8, 8, 0.0, 0.0));

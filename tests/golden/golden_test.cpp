@@ -38,6 +38,7 @@ void expect_equal(const Golden& a, const Golden& b)
     EXPECT_TRUE(same_bits(a.functionals.pilot().noise, b.functionals.pilot().noise));
     EXPECT_EQ(a.functionals.pilot().batches, b.functionals.pilot().batches);
     EXPECT_EQ(a.reference, b.reference);
+    EXPECT_EQ(a.slopes, b.slopes);
 }
 
 RC_GTEST_PROP(Golden, IsReadAsItWasMade, ())

@@ -366,6 +366,32 @@ TEST(Bonferroni, MultipliesUpToOne)
     EXPECT_EQ(golden::bonferroni(0.5, 7.0), 1.0);
 }
 
+TEST(AllExceed, OfOneSampleIsItsLevelAndOfAKnownReferenceTheProduct)
+{
+    // The quadrature's error, and what 1e14 values leave unknown of the reference.
+    EXPECT_NEAR(golden::all_exceed(Values{64.0}, Values{1e-5}, 100.0), 1e-5, 1e-11);
+    EXPECT_NEAR(golden::all_exceed(Values{64.0, 256.0}, Values{1e-2, 1e-3}, 1e14), 1e-5, 1e-9);
+}
+
+TEST(AllExceed, CountsTheErrorThatSamplesShareWithTheirReference)
+{
+    std::mt19937_64 random(6);
+    std::normal_distribution<double> normal;
+    constexpr int trials = 400'000;
+    int both = 0;
+    for (int i = 0; i < trials; ++i) {
+        const double reference = normal(random) / std::sqrt(128.0);
+        const double first = normal(random) / std::sqrt(64.0) - reference;
+        const double second = normal(random) / std::sqrt(256.0) - reference;
+        // 1.644854 is exceeded with a chance of 5%.
+        both += first > 1.644854 * std::sqrt(1.0 / 64.0 + 1.0 / 128.0) &&
+                second > 1.644854 * std::sqrt(1.0 / 256.0 + 1.0 / 128.0);
+    }
+    const double chance = golden::all_exceed(Values{64.0, 256.0}, Values{0.05, 0.05}, 128.0);
+    EXPECT_GT(chance, 3.0 * 0.05 * 0.05);
+    EXPECT_NEAR(both, chance * trials, 4.5 * std::sqrt(chance * trials)); // alpha = 7e-6
+}
+
 TEST(DetectableDifference, IsThatOfTheTablesOfSampleSizes)
 {
     // 1.959964 + 0.841621 for 5% and 80% with a known error.
@@ -392,6 +418,17 @@ TEST(DetectableScale, IsFoundAsOftenAsAskedFor)
     }
     // Binomial, 4.5 standard deviations (alpha = 7e-6), and 2% for what is of first order.
     EXPECT_NEAR(found, power * trials, 4.5 * std::sqrt(power * (1.0 - power) * trials) + 0.02 * trials);
+}
+
+TEST(DetectableShift, OfValuesNearOneIsTheirDetectableScale)
+{
+    std::mt19937_64 random(7);
+    Values reference(500);
+    for (double& value : reference) value = std::normal_distribution<double>(1.0, 0.01)(random);
+    reference = sorted(reference);
+    const double scale = golden::detectable_scale(reference, 50.0, 1e-4, 0.99);
+    // Both are found to 2%; adding e and multiplying by 1 + e differ by the deviation of 1%.
+    EXPECT_NEAR(golden::detectable_shift(reference, 50.0, 1e-4, 0.99), scale, 0.05 * scale);
 }
 
 TEST(DetectableScale, IsInfiniteWhereNoResultWouldBeSignificant)

@@ -1,0 +1,191 @@
+#include "golden/finding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace golden {
+
+namespace {
+
+constexpr std::size_t channels = 3;
+constexpr std::array<const char*, channels> channel_names = {"red", "green", "blue"};
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+} // namespace
+
+std::string describe(Method method)
+{
+    switch (method) {
+    case Method::ranks:
+        return "same estimator, batch by batch (Mann-Whitney)";
+    case Method::welch:
+        return "another estimator, several pictures (Welch's t)";
+    case Method::picture:
+        return "a single picture, its noise assumed (Welch's t)";
+    }
+    return "";
+}
+
+std::string describe(const Finding& finding)
+{
+    return std::string(channel_names[finding.channel]) + " of " + describe(finding.region) + " (" +
+           describe(finding.weight) + ")";
+}
+
+Multiplicity::Multiplicity(const Functionals& functionals, Method method)
+    : weights_(method == Method::ranks ? 3.0 : 2.0) // t tests cannot use the bounded one
+{
+    for (const Region& region : functionals.regions()) members_[region.kind] += 1.0;
+}
+
+double Multiplicity::of(RegionKind kind) const
+{
+    const double families = static_cast<double>(members_.size()) * weights_;
+    return static_cast<double>(channels) * families * members_.at(kind);
+}
+
+double Multiplicity::tests_of(RegionKind kind) const
+{
+    return static_cast<double>(channels) * weights_ * members_.at(kind);
+}
+
+std::vector<RegionKind> Multiplicity::kinds() const
+{
+    std::vector<RegionKind> kinds;
+    for (const auto& [kind, members] : members_) kinds.push_back(kind);
+    return kinds;
+}
+
+Judge::Judge(const Golden& golden, Method method, const CompareOptions& options)
+    : golden_(golden), functionals_(golden.functionals), method_(method), options_(options),
+      multiplicity_(functionals_, method)
+{}
+
+bool Judge::looks_at(std::size_t functional) const
+{
+    return method_ == Method::ranks || is_linear(functionals_.at(functional).weight);
+}
+
+Finding Judge::judge(const std::vector<Row>& rows, std::size_t functional, std::size_t channel) const
+{
+    Finding finding = blank(functional, channel);
+    std::vector<double> ours = values_of(rows, functionals_, functional, channel);
+    std::vector<double> theirs = values_of(golden_.reference, functionals_, functional, channel);
+    const Moments candidate = moments(ours);
+    const Moments reference = moments(theirs);
+    if (method_ == Method::ranks) {
+        std::sort(ours.begin(), ours.end());
+        std::sort(theirs.begin(), theirs.end());
+        finding.test = mann_whitney_beyond(ours, theirs, options_.rounding * std::abs(reference.mean));
+        finding.detectable = detectable_by_ranks(finding, theirs, candidate.count, reference.mean);
+    } else {
+        compare_means(finding, mean_estimate(candidate), reference,
+                      std::abs(candidate.skewness) / std::sqrt(candidate.count));
+    }
+    if (candidate.count >= 2.0 && reference.count >= 2.0)
+        finish(finding, mean_estimate(candidate), mean_estimate(reference));
+    else
+        finding.adjusted_p = bonferroni(finding.test.p, multiplicity_.of(finding.region.kind));
+    return finding;
+}
+
+Finding Judge::judge(const MeanEstimate& candidate, double skewed, std::size_t functional,
+                     std::size_t channel) const
+{
+    Finding finding = blank(functional, channel);
+    const Moments reference = moments(values_of(golden_.reference, functionals_, functional, channel));
+    compare_means(finding, candidate, reference, skewed);
+    finish(finding, candidate, mean_estimate(reference));
+    return finding;
+}
+
+Finding Judge::blank(std::size_t functional, std::size_t channel) const
+{
+    const Functional f = functionals_.at(functional);
+    return {functionals_.regions()[f.region],
+            f.weight,
+            functional,
+            channel,
+            true,
+            {},
+            1.0,
+            nan,
+            {nan, nan},
+            nan};
+}
+
+double Judge::detectable_by_ranks(const Finding& finding, const std::vector<double>& reference,
+                                  double count, double mean) const
+{
+    const double level = level_of(finding);
+    if (is_linear(finding.weight))
+        return mean > 0.0 ? detectable_scale(reference, count, level, options_.power) : nan;
+    const std::size_t at = finding.channel * functionals_.size() + finding.functional;
+    const double slope = static_cast<double>(golden_.slopes[at]) *
+                         functionals_.spread(finding.functional, finding.channel);
+    // To first order in an error that is small.
+    return slope > 0.0 ? detectable_shift(reference, count, level, options_.power) / slope : nan;
+}
+
+double Judge::level_of(const Finding& finding) const
+{
+    return options_.accuse / multiplicity_.of(finding.region.kind);
+}
+
+void Judge::compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
+                          double skewed) const
+{
+    const double most_skewed =
+        std::max(skewed, std::abs(reference.skewness) / std::sqrt(reference.count));
+    finding.conclusive = most_skewed <= options_.skewness;
+    const MeanEstimate expected = mean_estimate(reference);
+    finding.test = welch(candidate, expected, options_.rounding * std::abs(expected.mean));
+    if (finding.conclusive && expected.mean > 0.0)
+        finding.detectable = detectable_difference(std::sqrt(candidate.variance + expected.variance),
+                                                   welch_degrees(candidate, expected), level_of(finding),
+                                                   options_.power) /
+                             expected.mean;
+}
+
+void Judge::finish(Finding& finding, const MeanEstimate& candidate, const MeanEstimate& reference) const
+{
+    if (finding.conclusive)
+        finding.adjusted_p = bonferroni(finding.test.p, multiplicity_.of(finding.region.kind));
+    if (reference.mean == 0.0) return;
+    finding.ratio = candidate.mean / reference.mean;
+    finding.interval = ratio_interval(candidate, reference, options_.confidence);
+}
+
+std::vector<double> values_of(const std::vector<Row>& rows, const Functionals& functionals,
+                              std::size_t functional, std::size_t channel)
+{
+    const double expected = functionals.expected(functional, channel);
+    const double spread = functionals.spread(functional, channel);
+    const std::size_t at = channel * functionals.size() + functional;
+    std::vector<double> values;
+    values.reserve(rows.size());
+    for (const Row& row : rows) values.push_back(expected + spread * static_cast<double>(row[at]));
+    return values;
+}
+
+double false_alarm_bound(const Functionals& functionals, Method method, std::uint64_t golden_batches,
+                         const std::vector<std::uint64_t>& stages, const CompareOptions& options)
+{
+    if (stages.size() < 2) return options.convict;
+    const Multiplicity multiplicity(functionals, method);
+    std::vector<double> counts;
+    for (const std::uint64_t batches : stages) counts.push_back(static_cast<double>(batches));
+    double sum = options.convict;
+    for (const RegionKind kind : multiplicity.kinds()) {
+        // Two-sided first, and then in the direction that was seen: twice the chance of either sign.
+        std::vector<double> levels(stages.size(), options.confirm);
+        levels[0] = options.accuse / multiplicity.of(kind) / 2.0;
+        sum += 2.0 * multiplicity.tests_of(kind) *
+               all_exceed(counts, levels, static_cast<double>(golden_batches));
+    }
+    return sum;
+}
+
+} // namespace golden
