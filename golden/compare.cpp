@@ -107,6 +107,26 @@ Comparison compare(const Golden& golden, const Candidate& candidate, Method meth
     return comparison;
 }
 
+std::array<double, 3> detectable_error(const Golden& golden, std::uint64_t batches,
+                                       const CompareOptions& options)
+{
+    const Functionals& functionals = golden.functionals;
+    const double level = options.accuse / Multiplicity(functionals, Method::ranks).of(RegionKind::whole);
+    std::array<double, 3> detectable{};
+    detectable.fill(nan);
+    for (std::size_t channel = 0; channel < channels; ++channel)
+        for (std::size_t f = 0; f < weights.size(); ++f) { // those of region 0, the whole picture
+            if (!is_linear(functionals.at(f).weight)) continue;
+            std::vector<double> values = values_of(golden.reference, functionals, f, channel);
+            std::sort(values.begin(), values.end());
+            if (moments(values).mean > 0.0)
+                detectable[channel] =
+                    std::fmin(detectable[channel], detectable_scale(values, static_cast<double>(batches),
+                                                                    level, options.power));
+        }
+    return detectable;
+}
+
 Comparison compare(const Golden& golden, const RenderStage& render, Method method,
                    const CompareOptions& options)
 {

@@ -91,6 +91,11 @@ void check_comparable(const Golden& golden, const Metadata& candidate, Method me
 Comparison compare(const Golden& golden, const Candidate& candidate, Method method,
                    const CompareOptions& options = {});
 
+/// What a candidate of so many batches of the golden's own kind would let see: the smallest relative
+/// error of the whole picture, per channel, as Comparison::detectable; NaN for a channel that is black.
+std::array<double, 3> detectable_error(const Golden& golden, std::uint64_t batches,
+                                       const CompareOptions& options = {});
+
 /// Renders `batches` batches into an empty candidate, with random numbers that no other stage used.
 using RenderStage = std::function<void(std::size_t stage, std::uint64_t batches, Candidate& candidate)>;
 

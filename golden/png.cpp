@@ -1,12 +1,12 @@
 #include "golden/png.h"
 #include "golden/atomic_file.h"
-#include "golden/image_error.h"
 #include "golden/picture_size.h"
 
 #include <stb_image_write.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -35,9 +35,8 @@ Srgb8 to_srgb8(const Rgb& linear, double exposure)
     return bytes;
 }
 
-void write_png(const std::filesystem::path& path, const Image& image, double exposure)
+std::string encode_png(const Image& image, double exposure)
 {
-    check_size(path, image);
     std::vector<std::uint8_t> bytes;
     bytes.reserve(image.pixels.size() * 3);
     for (const Rgb& pixel : image.pixels) {
@@ -51,8 +50,14 @@ void write_png(const std::filesystem::path& path, const Image& image, double exp
     };
     if (stbi_write_png_to_func(append, &png, image.width, image.height, 3, bytes.data(),
                                3 * image.width) == 0)
-        throw ImageError(path, "the PNG encoder failed");
-    write_atomically(path, png);
+        throw std::invalid_argument("the PNG encoder failed");
+    return png;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image, double exposure)
+{
+    check_size(path, image);
+    write_atomically(path, encode_png(image, exposure));
 }
 
 } // namespace golden

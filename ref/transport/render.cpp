@@ -165,9 +165,19 @@ bool render(const World& world, Integrator integrator, const RenderOptions& opti
         if (!batch.run(monitor)) return false;
         film.add_batch(batch.mean());
         if (layers != nullptr) layers->add_batch(*batch.layers(), options.batch_size);
+        if (monitor.batch) monitor.batch(batch.mean());
         if (monitor.kept) monitor.kept(film);
     }
     return true;
+}
+
+std::optional<golden::Image> render_batch(const World& world, Integrator integrator,
+                                          const RenderOptions& options, std::uint64_t number,
+                                          const Monitor& monitor)
+{
+    Batch batch(world, integrator, options, number, nullptr);
+    if (!batch.run(monitor)) return std::nullopt;
+    return batch.mean();
 }
 
 } // namespace ref

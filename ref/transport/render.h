@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 namespace ref {
 
@@ -25,6 +26,7 @@ struct Monitor {
     std::function<bool()> stop = {};                // asked between tiles: true ends the render soon
     std::function<void(const golden::Film&)> kept =
         {}; // after each batch, with the film as it stands then
+    std::function<void(const golden::Image&)> batch = {}; // each batch's mean, before `kept`
 };
 
 /// Adds batches to `film`, which may come from an earlier, shorter render, until it holds as many as
@@ -34,5 +36,11 @@ struct Monitor {
 /// Throws std::invalid_argument if film, layers and camera differ in size.
 bool render(const World& world, Integrator integrator, const RenderOptions& options, golden::Film& film,
             const Monitor& monitor = {}, StrategyLayers* layers = nullptr);
+
+/// The mean per pixel of the batch `number` alone: what render adds to a film that holds that many
+/// batches. None if `monitor` said stop; its `kept` and `batch` are not called.
+std::optional<golden::Image> render_batch(const World& world, Integrator integrator,
+                                          const RenderOptions& options, std::uint64_t number,
+                                          const Monitor& monitor = {});
 
 } // namespace ref

@@ -1,0 +1,226 @@
+#include "golden/report.h"
+#include "golden/atomic_file.h"
+#include "golden/flip.h"
+#include "golden/png.h"
+#include "golden/report_page.h" // page_template, made from report_page.html
+#include "golden/strategy_sheet.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+#include <string_view>
+
+namespace golden {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string base64(std::string_view bytes) // [RFC 4648, sec. 4]
+{
+    static constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63U] : '=';
+    }
+    return text;
+}
+
+std::string base64_floats(const std::vector<float>& values)
+{
+    std::string bytes(values.size() * sizeof(float), '\0');
+    std::memcpy(bytes.data(), values.data(), bytes.size());
+    return base64(bytes);
+}
+
+std::string base64_of(const Image& image)
+{
+    std::vector<float> values;
+    for (const Rgb& pixel : image.pixels)
+        for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(pixel[c]));
+    return base64_floats(values);
+}
+
+/// For text between tags.
+std::string escaped(std::string_view text)
+{
+    std::string out;
+    for (const char c : text) {
+        if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '&')
+            out += "&amp;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+/// Stops that bring the picture's mean to a middle grey of 0.18, in whole stops; 0 for a black one.
+double exposure_for(const Image& image)
+{
+    double sum = 0.0;
+    for (const Rgb& pixel : image.pixels) sum += pixel.x + pixel.y + pixel.z;
+    const double mean = sum / (3.0 * static_cast<double>(image.pixels.size()));
+    return mean > 0.0 ? std::round(std::log2(0.18 / mean)) : 0.0;
+}
+
+Json json_of(const Finding& finding)
+{
+    return {{"region", describe(finding.region)},
+            {"weight", describe(finding.weight)},
+            {"channel", finding.channel},
+            {"conclusive", finding.conclusive},
+            {"z", finding.test.z},
+            {"p", finding.test.p},
+            {"adjusted_p", finding.adjusted_p},
+            {"ratio", finding.ratio},
+            {"low", finding.interval.low},
+            {"high", finding.interval.high},
+            {"detectable", finding.detectable}};
+}
+
+std::string number(const char* format, double value)
+{
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), format, value);
+    return text.data();
+}
+
+/// What the numbers mean, in sentences.
+std::vector<std::string> summary_of(const Comparison& comparison)
+{
+    std::vector<std::string> lines;
+    lines.push_back("Method: " + describe(comparison.method) + ". " +
+                    std::to_string(comparison.stages.empty() ? 0 : comparison.stages.front().batches) +
+                    " batches of the candidate against " + std::to_string(comparison.golden_batches) +
+                    " of the golden.");
+    lines.push_back("The smallest adjusted p-value is " + number("%.3g", comparison.p) + " among " +
+                    std::to_string(comparison.findings.size()) + " tests, of which " +
+                    number("%.1f", 100.0 * comparison.coverage) + "% are conclusive.");
+    if (comparison.suspicion) {
+        const Finding& f = comparison.findings[*comparison.suspicion];
+        lines.push_back("It is that of " + describe(f) + ".");
+    }
+    if (comparison.blindest_stratum) {
+        const Finding& f = comparison.findings[*comparison.blindest_stratum];
+        lines.push_back("Blindest stratum: " + describe(f) + ", where " +
+                        (std::isfinite(f.detectable)
+                             ? "an error of " + number("%.2f", 100.0 * f.detectable) + "%"
+                             : std::string("no error")) +
+                        " would have been seen for certain.");
+    }
+    if (comparison.noise_ratio)
+        lines.push_back("The picture's own noise is " + number("%.2f", *comparison.noise_ratio) +
+                        " times what its samples were assumed to have.");
+    return lines;
+}
+
+Json numbers_of(const Report& report)
+{
+    const Comparison& comparison = report.comparison;
+    Json json = {{"verdict", describe(comparison.verdict)},
+                 {"reason", comparison.reason},
+                 {"method", describe(comparison.method)},
+                 {"p", comparison.p},
+                 {"coverage", comparison.coverage},
+                 {"detectable", comparison.detectable},
+                 {"golden_batches", comparison.golden_batches},
+                 {"summary", summary_of(comparison)},
+                 {"width", report.golden.mean.width},
+                 {"height", report.golden.mean.height},
+                 {"golden", report.golden.metadata},
+                 {"candidate", report.candidate_metadata}};
+    if (comparison.noise_ratio) json["noise_ratio"] = *comparison.noise_ratio;
+    json["whole"] = Json::array();
+    json["tiles"] = Json::array();
+    json["stages"] = Json::array();
+    json["findings"] = Json::array();
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        json["whole"].push_back(json_of(whole_picture(comparison, channel)));
+        const TileMap tiles = tile_map(comparison, channel);
+        json["tiles"].push_back({{"columns", tiles.columns}, {"rows", tiles.rows}, {"z", tiles.z}});
+    }
+    for (const Stage& stage : comparison.stages)
+        json["stages"].push_back({{"batches", stage.batches}, {"p", stage.p}, {"level", stage.level}});
+    for (const Finding& finding : comparison.findings) json["findings"].push_back(json_of(finding));
+    return json;
+}
+
+/// The sheet of all layers that are named for a strategy, as a data URI; none if there is none.
+std::string sheet_of(const Layers& layers)
+{
+    Strategies strategies;
+    for (const auto& [name, image] : layers) {
+        int s = 0;
+        int t = 0;
+        int end = 0;
+        if (std::sscanf(name.c_str(), "s%dt%d%n", &s, &t, &end) == 2 &&
+            static_cast<std::size_t>(end) == name.size())
+            strategies.emplace(std::pair(s, t), image);
+    }
+    if (strategies.empty()) return {};
+    return "data:image/png;base64," + base64(encode_png(strategy_sheet(strategies)));
+}
+
+} // namespace
+
+std::string report_json(const Report& report)
+{
+    return numbers_of(report).dump();
+}
+
+std::string report_page(const Report& report)
+{
+    Json data = numbers_of(report);
+    const ErrorMap flip_map = flip(report.golden.mean, report.candidate);
+    data["exposure"] = exposure_for(report.golden.mean);
+    data["pictures"] = {{"golden", base64_of(report.golden.mean)},
+                        {"candidate", base64_of(report.candidate)},
+                        {"flip", base64_floats({flip_map.begin(), flip_map.end()})}};
+    if (const std::string sheet = sheet_of(report.strategies); !sheet.empty())
+        data["pictures"]["strategies"] = sheet;
+    // Inside a script element only "<" could end it.
+    std::string text;
+    for (const char c : data.dump(-1, ' ', true))
+        text += c == '<' ? std::string("\\u003c") : std::string(1, c);
+
+    std::string page;
+    std::string_view rest = page_template;
+    while (!rest.empty()) {
+        const auto fill = [&](std::string_view mark, const std::string& content) {
+            if (!rest.starts_with(mark)) return false;
+            page += content;
+            rest.remove_prefix(mark.size());
+            return true;
+        };
+        if (fill("@TITLE@", escaped(report.title)) ||
+            fill("@VERDICT@", describe(report.comparison.verdict)) ||
+            fill("@REASON@", escaped(report.comparison.reason)) || fill("@DATA@", text))
+            continue;
+        const std::size_t next = rest.find('@', 1);
+        page += rest.substr(0, next);
+        rest.remove_prefix(std::min(next, rest.size()));
+    }
+    return page;
+}
+
+void write_report(const std::filesystem::path& path, const Report& report)
+{
+    write_atomically(path, report_page(report));
+}
+
+} // namespace golden

@@ -1,0 +1,35 @@
+#pragma once
+
+// A comparison as numbers for machines and as a page for people.
+
+#include "golden/compare.h"
+#include "golden/exr.h"
+
+#include <filesystem>
+#include <string>
+
+namespace golden {
+
+/// A comparison and the pictures that it is about.
+struct Report {
+    std::string title;
+    const Comparison& comparison;
+    const Golden& golden;
+    const Image& candidate; // the mean of all its batches
+    Metadata candidate_metadata;
+    Layers strategies = {}; // of the candidate, by the names of ref::layer_name: "s2t3"; may be empty
+};
+
+/// One JSON object: verdict, reason, p, per channel ratio, interval and smallest detectable error, all
+/// findings, the tiles' z, stages, and the metadata of both pictures. What is not a number is null.
+std::string report_json(const Report& report);
+
+/// A self-contained HTML page: the numbers of report_json, both pictures under one slider with zoom and
+/// exposure, z per tile, the histogram of p-values, the HDR-FLIP map, and the strategies if there are
+/// any. It loads nothing from anywhere.
+std::string report_page(const Report& report);
+
+/// Writes report_page. Throws ImageError.
+void write_report(const std::filesystem::path& path, const Report& report);
+
+} // namespace golden
