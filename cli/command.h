@@ -13,6 +13,7 @@ enum ExitStatus {
     fine = 0,
     check_failed = 1, // a comparison or a check said no
     bad_input = 2,    // wrong usage, unreadable file, unwritable file
+    inconclusive = 3, // a comparison could not tell
     interrupted = 130 // by Ctrl-C or SIGTERM, after what was done was kept; as shells say it
 };
 

@@ -1,7 +1,10 @@
 // The program: chooses the subcommand, and turns every error into one line and an exit status.
 
 #include "cli/bvh.h"
+#include "cli/candidate.h"
 #include "cli/command.h"
+#include "cli/compare.h"
+#include "cli/golden.h"
 #include "cuda/device.h"
 
 #include <csignal>
@@ -29,10 +32,13 @@ int main(int argc, char** argv)
     program.set_version_flag(
         "--version", [] { return "plumbline " PLUMBLINE_VERSION "\nGPU: " + gpu::describe_device(); });
     program.require_subcommand(1);
-    program.footer("Exit status: 0 fine, 1 a check says no, 2 bad input or usage, 130 interrupted.");
+    program.footer("Exit status: 0 fine, 1 a check says no, 2 bad input or usage, 3 a "
+                   "comparison cannot tell, 130 interrupted.");
     cli::Work work;
     cli::add_render_command(program, work);
     cli::add_bvh_command(program, work);
+    cli::add_golden_command(program, work);
+    cli::add_compare_command(program, work);
 
     try {
         program.parse(argc, argv);
@@ -47,6 +53,9 @@ int main(int argc, char** argv)
         return complain(std::string(word) + ": no such command (plumbline --help lists them)");
     } catch (const CLI::ParseError& error) {
         return complain(std::string(error.what()) + " (plumbline --help lists what there is)");
+    } catch (const cli::Interrupted&) {
+        complain("interrupted");
+        return cli::interrupted;
     } catch (const std::bad_alloc&) {
         return complain("out of memory");
     } catch (const std::exception& error) {

@@ -12,7 +12,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -29,14 +31,25 @@ double seconds_since(Clock::time_point start)
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void write_outputs(const RenderCommand& options, const golden::Film& film, golden::Metadata metadata)
+void write_outputs(const RenderCommand& options, const golden::Film& film, golden::Metadata metadata,
+                   const golden::Layers& batches)
 {
     const std::uint64_t held = film.batches() * options.batch_size;
     metadata["samples"] = std::to_string(held);
     if (held < options.samples)
         metadata["interrupted"] = "before " + std::to_string(options.samples) + " samples";
     for (const std::string& path : options.outputs)
-        golden::write_image(path, film, metadata, options.exposure);
+        if (!batches.empty() && std::filesystem::path(path).extension() == ".exr")
+            golden::write_exr(path, film, metadata, batches);
+        else
+            golden::write_image(path, film, metadata, options.exposure);
+}
+
+/// In the order of batches, which is also that of names.
+std::string batch_name(std::size_t number)
+{
+    const std::string digits = std::to_string(number);
+    return "batch." + std::string(4 - std::min<std::size_t>(4, digits.size()), '0') + digits;
 }
 
 void write_strategies(const RenderCommand& options, const ref::StrategyLayers& layers,
@@ -95,6 +108,8 @@ ExitStatus render(const RenderCommand& options)
     if (!options.strategies.empty() || !options.strategies_picture.empty())
         layers.emplace(size.width, size.height, options.max_edges, !options.unweighted);
 
+    golden::Layers batches;
+
     catch_interrupts();
     const Clock::time_point start = Clock::now();
     const double cpu_start = cpu_seconds();
@@ -103,11 +118,15 @@ ExitStatus render(const RenderCommand& options)
     {
         Progress progress(scene.name, static_cast<double>(batches_before),
                           static_cast<double>(plan.batches), options.quiet);
-        ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested, {}};
+        ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
+        if (options.keep_batches)
+            monitor.batch = [&](const golden::Image& batch) {
+                batches.emplace(batch_name(batches.size()), batch);
+            };
         if (options.watch > 0.0)
             monitor.kept = [&](const golden::Film& so_far) {
                 if (seconds_since(written) < options.watch) return;
-                write_outputs(options, so_far, metadata);
+                write_outputs(options, so_far, metadata, batches);
                 written = Clock::now();
             };
         complete =
@@ -117,7 +136,7 @@ ExitStatus render(const RenderCommand& options)
     const double cpu = cpu_seconds() - cpu_start;
 
     const bool anything = film.batches() > 0;
-    if (anything) write_outputs(options, film, metadata);
+    if (anything) write_outputs(options, film, metadata, batches);
     if (anything && layers) write_strategies(options, *layers, film, metadata);
     if (options.json)
         report(options, scene, film,

@@ -20,6 +20,9 @@ const std::map<std::string, ref::Integrator> integrators = {
 const std::map<std::string, ref::Heuristic> heuristics = {{"balance", ref::Heuristic::balance},
                                                           {"power", ref::Heuristic::power}};
 
+/// Each is a picture in memory and in the file.
+constexpr std::uint64_t most_batches_kept = 1024;
+
 /// CLI11 takes "-1" for 2^64 - 1, and what is larger for that too.
 std::string expect_seed(const std::string& text)
 {
@@ -83,6 +86,8 @@ void add_render_options(CLI::App& command, RenderCommand& options)
     command.add_option("--strategies-picture", options.strategies_picture,
                        "The sheet of all strategies, to this .png");
     command.add_flag("--unweighted", options.unweighted, "Strategies as if each were the only one");
+    command.add_flag("--keep-batches", options.keep_batches,
+                     "Keep each batch as a layer of the .exr outputs: compare judges by them");
     command.add_flag("--json", options.json, "Print one JSON object with time, samples and mean");
     command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
 }
@@ -107,6 +112,12 @@ void check(const RenderCommand& options)
             "--strategies cannot be resumed: layers are kept without all their digits");
     if (options.unweighted && !layers)
         throw std::invalid_argument("--unweighted says what --strategies shows, and there is none");
+    if (options.keep_batches && options.resume)
+        throw std::invalid_argument(
+            "--keep-batches cannot be resumed: layers are kept without all their digits");
+    if (options.keep_batches && options.samples / options.batch_size > most_batches_kept)
+        throw std::invalid_argument("--keep-batches keeps at most " + std::to_string(most_batches_kept) +
+                                    " batches: choose a larger --batch");
     expect_ending(options.strategies, "--strategies", ".exr");
     expect_ending(options.strategies_picture, "--strategies-picture", ".png");
     for (const std::string& path : {options.strategies, options.strategies_picture})

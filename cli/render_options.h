@@ -36,6 +36,7 @@ struct RenderCommand {
     std::string strategies;
     std::string strategies_picture;
     bool unweighted = false;
+    bool keep_batches = false;
     bool json = false;
     bool quiet = false;
 };

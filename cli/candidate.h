@@ -1,0 +1,41 @@
+#pragma once
+
+// What `plumbline compare` is given, made comparable with a golden.
+
+#include "golden/compare.h"
+#include "golden/exr.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cli {
+
+struct CandidateOptions {
+    std::optional<double> samples;     // per pixel, of a single picture
+    std::string integrator;            // of a scene; empty: the golden's
+    std::optional<std::uint64_t> seed; // of a scene; none: another one every time
+    unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+    bool quiet = false;
+};
+
+struct Judged {
+    golden::Comparison comparison;
+    golden::Image mean;
+    golden::Metadata metadata;
+    golden::Layers strategies;
+};
+
+/// Chooses the method by what the files are: a scene is rendered in stages; a picture of ours with its
+/// batches (`render --keep-batches`) and several pictures are compared by these; a single picture by the
+/// noise that its number of samples lets expect. Throws golden::ImageError, scenes::SceneError and
+/// std::invalid_argument for what cannot be read or compared, Interrupted if a render was.
+Judged judge(const golden::Golden& golden, const std::vector<std::string>& files,
+             const CandidateOptions& options);
+
+/// Ctrl-C before there was anything to keep.
+struct Interrupted {};
+
+} // namespace cli

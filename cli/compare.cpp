@@ -1,0 +1,140 @@
+// `plumbline compare`: is this picture right? The answer on one screen, as JSON, or as a page.
+
+#include "cli/compare.h"
+#include "cli/candidate.h"
+#include "cli/interrupt.h"
+#include "cli/scene_input.h"
+#include "golden/atomic_file.h"
+#include "golden/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+namespace cli {
+
+namespace {
+
+constexpr const char* channel_names[] = {"red", "green", "blue"};
+
+ExitStatus status_of(golden::Verdict verdict)
+{
+    switch (verdict) {
+    case golden::Verdict::pass:
+        return fine;
+    case golden::Verdict::fail:
+        return check_failed;
+    case golden::Verdict::inconclusive:
+        return inconclusive;
+    }
+    throw std::logic_error("no such verdict");
+}
+
+void print_screen(const golden::Comparison& comparison)
+{
+    std::printf("%s  %s\n\n", describe(comparison.verdict).c_str(), comparison.reason.c_str());
+    std::printf("method      %s\n", describe(comparison.method).c_str());
+    for (const golden::Stage& stage : comparison.stages)
+        std::printf("stage       %llu batches: p = %.3g, suspicious below %.3g\n",
+                    static_cast<unsigned long long>(stage.batches), stage.p, stage.level);
+    std::printf("conclusive  %.1f%% of %zu tests\n", 100.0 * comparison.coverage,
+                comparison.findings.size());
+    if (comparison.noise_ratio)
+        std::printf("noise       %.2f times what its samples were assumed to have\n",
+                    *comparison.noise_ratio);
+    std::printf("\nwhole picture  candidate/golden     99%% interval         would have seen\n");
+    for (std::size_t c = 0; c < 3; ++c) {
+        const golden::Finding& whole = whole_picture(comparison, c);
+        std::printf("  %-12s %12.3f%%   %8.3f%% .. %8.3f%%   %12.2f%%\n", channel_names[c],
+                    100.0 * whole.ratio, 100.0 * whole.interval.low, 100.0 * whole.interval.high,
+                    100.0 * comparison.detectable[c]);
+    }
+    std::vector<const golden::Finding*> worst;
+    for (const golden::Finding& finding : comparison.findings)
+        if (finding.conclusive) worst.push_back(&finding);
+    const auto shown = std::min<std::size_t>(5, worst.size());
+    std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(shown), worst.end(),
+                      [](const auto* a, const auto* b) { return a->test.p < b->test.p; });
+    std::printf("\nmost significant\n");
+    for (std::size_t i = 0; i < shown; ++i)
+        std::printf("  z %+6.2f  p %8.2g (adjusted %8.2g)  ratio %8.2f%%  %s\n", worst[i]->test.z,
+                    worst[i]->test.p, worst[i]->adjusted_p, 100.0 * worst[i]->ratio,
+                    describe(*worst[i]).c_str());
+    if (comparison.blindest_stratum) {
+        const golden::Finding& blindest = comparison.findings[*comparison.blindest_stratum];
+        std::printf("\nblindest stratum: %s\n", describe(blindest).c_str());
+        if (std::isfinite(blindest.detectable))
+            std::printf("  where an error of %.2f%% would have been seen\n",
+                        100.0 * blindest.detectable);
+        else
+            std::printf("  where no error would have been seen for certain\n");
+    }
+}
+
+struct CompareCommand {
+    std::vector<std::string> pictures; // candidates, then the golden
+    CandidateOptions candidate;
+    std::string report;
+    bool json = false;
+};
+
+ExitStatus compare_command(const CompareCommand& options)
+{
+    expect_ending(options.report, "--report", ".html");
+    if (!options.report.empty()) golden::check_place(options.report);
+    const golden::Golden golden = golden::read_golden(options.pictures.back());
+    catch_interrupts();
+    const std::vector<std::string> files(options.pictures.begin(), options.pictures.end() - 1);
+    const Judged judged = judge(golden, files, options.candidate);
+    const golden::Report report{std::filesystem::path(files.front()).filename().string() + " against " +
+                                    std::filesystem::path(options.pictures.back()).filename().string(),
+                                judged.comparison,
+                                golden,
+                                judged.mean,
+                                judged.metadata,
+                                judged.strategies};
+    if (!options.report.empty()) golden::write_report(options.report, report);
+    if (options.json)
+        std::cout << golden::report_json(report) << std::endl;
+    else
+        print_screen(judged.comparison);
+    return status_of(judged.comparison.verdict);
+}
+
+} // namespace
+
+void add_compare_command(CLI::App& program, Work& work)
+{
+    const auto options = std::make_shared<CompareCommand>();
+    CLI::App* command = program.add_subcommand("compare", "Judge a picture by a golden");
+    command
+        ->add_option("pictures", options->pictures,
+                     "The candidate, then the golden. A candidate is an .exr or .pfm; several "
+                     "independent ones; or a scene, .dae, that is rendered here")
+        ->required()
+        ->expected(2, 1 << 16);
+    command
+        ->add_option("-s,--samples", options->candidate.samples,
+                     "Samples per pixel of the one picture, if it does not say so itself")
+        ->check(CLI::Range(1.0, 1e12));
+    command
+        ->add_option("--integrator", options->candidate.integrator,
+                     "Of a scene that is rendered here: path, bdpt or light [the golden's]")
+        ->check(CLI::IsMember({"path", "bdpt", "light"}));
+    command->add_option("--seed", options->candidate.seed,
+                        "Of a scene that is rendered here [another one every time]");
+    command->add_option("-t,--threads", options->candidate.threads, "Threads")
+        ->check(CLI::Range(1u, 1024u));
+    command->add_option("--report", options->report, "Write a page with pictures: .html");
+    command->add_flag("--json", options->json, "Print one JSON object");
+    command->add_flag("-q,--quiet", options->candidate.quiet, "No progress");
+    command->footer("Exit status: 0 PASS, 1 FAIL, 3 INCONCLUSIVE, 2 bad input.\n"
+                    "Example: plumbline compare mine.exr golden/renders/cornell_glass.exr -s 1024");
+    command->callback([options, &work] { work = [options] { return compare_command(*options); }; });
+}
+
+} // namespace cli

@@ -1,0 +1,249 @@
+// `plumbline golden`: reference pictures, batch by batch, with all that is needed to judge by them.
+
+#include "cli/golden.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/resources.h"
+#include "golden/exr.h"
+#include "golden/image_error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+namespace cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::uint64_t number_in(const golden::Metadata& metadata, const std::string& key)
+{
+    const auto found = metadata.find(key);
+    const std::string text = found == metadata.end() ? "" : found->second;
+    std::uint64_t value = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || rest != text.data() + text.size())
+        throw std::invalid_argument("the golden's metadata has no number " + key + ", but '" + text +
+                                    "'");
+    return value;
+}
+
+/// Throws unless everything that shapes the picture is what `description` says.
+void expect_same_making(const fs::path& path, const golden::Metadata& found,
+                        const golden::Metadata& description)
+{
+    for (const auto& [key, value] : description) {
+        if (key == "version") continue; // a golden stays until its picture is wrong
+        const auto it = found.find(key);
+        if (it == found.end() || it->second != value)
+            throw golden::ImageError(path, "its " + key + " is '" +
+                                               (it == found.end() ? "" : it->second) + "', not '" +
+                                               value + "': remove the file to make it anew");
+    }
+}
+
+std::string command_of(const GoldenCommand& options, const std::string& scene)
+{
+    return "plumbline golden " + fs::path(scene).filename().string() + " --size " + options.size +
+           " -s " + std::to_string(options.samples) + " --batch " + std::to_string(options.batch_size) +
+           " --pilot " + std::to_string(options.pilot_batches) + " --max-edges " +
+           std::to_string(options.max_edges);
+}
+
+void check(const GoldenCommand& options)
+{
+    if (options.samples % options.batch_size != 0)
+        throw std::invalid_argument("-s " + std::to_string(options.samples) +
+                                    ": not a multiple of the " + std::to_string(options.batch_size) +
+                                    " samples of a batch (--batch)");
+    if (options.samples / options.batch_size <= options.pilot_batches)
+        throw std::invalid_argument("-s " + std::to_string(options.samples) + ": the pilot takes " +
+                                    std::to_string(options.pilot_batches * options.batch_size) +
+                                    " samples and leaves nothing to compare with");
+}
+
+/// Whether it was finished.
+bool make_golden(const GoldenCommand& options, const std::string& file)
+{
+    const Size size = parse_size(options.size);
+    const RenderCommand command = render_of(options, file);
+    const scenes::Scene scene = load_scene(file, false, options.quiet);
+    golden::Metadata metadata = describe(command, scene);
+    const fs::path path = golden_file(options, file);
+    const std::uint64_t batches = options.samples / options.batch_size;
+
+    std::optional<golden::GoldenMaker> maker;
+    if (fs::exists(path)) {
+        const golden::ExrPicture earlier = golden::read_exr(path);
+        expect_same_making(path, earlier.metadata, metadata);
+        if (!earlier.film) { // finished
+            if (number_in(earlier.metadata, "samples") != options.samples)
+                throw golden::ImageError(path, "is finished, with other than " +
+                                                   std::to_string(options.samples) +
+                                                   " samples: remove the file to make it anew");
+            std::cout << scene.name << ": is there\n";
+            return true;
+        }
+        maker.emplace(golden::GoldenMaker::resume(path));
+        if (maker->pilot_batches() != options.pilot_batches)
+            throw golden::ImageError(path, "has another number of pilot batches: remove the file");
+    } else {
+        maker.emplace(size.width, size.height, options.pilot_batches);
+    }
+    metadata["command"] = command_of(options, file);
+
+    const ref::RenderOptions plan = render_options(command);
+    const ref::World world(scene, size.width, size.height);
+    const Clock::time_point start = Clock::now();
+    Clock::time_point kept = start;
+    const auto keep = [&](golden::FilmState state) {
+        metadata["samples"] = std::to_string(maker->film().batches() * options.batch_size);
+        maker->write(path, metadata, state);
+    };
+    {
+        Progress progress(scene.name, static_cast<double>(maker->film().batches()),
+                          static_cast<double>(batches), options.quiet);
+        const ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
+        while (maker->film().batches() < batches) {
+            const auto batch =
+                ref::render_batch(world, integrator_of(command), plan, maker->film().batches(), monitor);
+            if (!batch) {
+                if (maker->film().batches() > 0) keep(golden::FilmState::keep);
+                return false;
+            }
+            maker->add_batch(*batch);
+            if (std::chrono::duration<double>(Clock::now() - kept).count() >= options.watch) {
+                keep(golden::FilmState::keep);
+                kept = Clock::now();
+            }
+        }
+    }
+    keep(golden::FilmState::omit);
+    std::printf("%s: %llu samples per pixel, %.0f s, %.2f MiB\n", scene.name.c_str(),
+                static_cast<unsigned long long>(options.samples),
+                std::chrono::duration<double>(Clock::now() - start).count(),
+                static_cast<double>(fs::file_size(path)) / (1 << 20));
+    std::fflush(stdout);
+    return true;
+}
+
+ExitStatus golden_command(GoldenCommand options)
+{
+    if (options.all == !options.scenes.empty())
+        throw std::invalid_argument("name scenes, or say --all for those in the folder scenes");
+    if (options.all) {
+        if (!fs::is_directory("scenes"))
+            throw std::invalid_argument("--all: there is no folder scenes here");
+        for (const auto& entry : fs::directory_iterator("scenes"))
+            if (entry.path().extension() == ".dae") options.scenes.push_back(entry.path().string());
+        std::sort(options.scenes.begin(), options.scenes.end());
+    }
+    catch_interrupts();
+    if (options.list) return list_goldens(options);
+    if (options.verify > 0) return verify_goldens(options);
+    check(options);
+    fs::create_directories(options.folder);
+    for (const std::string& scene : options.scenes)
+        if (!make_golden(options, scene)) {
+            std::cerr << "plumbline: interrupted: the same command goes on from here\n";
+            return interrupted;
+        }
+    return fine;
+}
+
+} // namespace
+
+RenderCommand render_of(const GoldenCommand& options, const std::string& scene)
+{
+    RenderCommand command;
+    command.scene = scene;
+    command.size = options.size;
+    command.samples = options.samples;
+    command.batch_size = options.batch_size;
+    command.threads = options.threads;
+    command.integrator = "bdpt";
+    command.max_edges = options.max_edges;
+    command.seed = golden_seed;
+    return command;
+}
+
+RenderCommand render_of(const golden::Golden& golden, const std::string& scene)
+{
+    const golden::Metadata& metadata = golden.metadata;
+    const auto text = [&](const std::string& key) {
+        const auto found = metadata.find(key);
+        if (found == metadata.end())
+            throw std::invalid_argument("the golden's metadata does not say its " + key);
+        return found->second;
+    };
+    RenderCommand command;
+    command.scene = scene;
+    command.size = std::to_string(golden.mean.width) + "x" + std::to_string(golden.mean.height);
+    command.samples = number_in(metadata, "samples");
+    command.batch_size = static_cast<std::uint32_t>(number_in(metadata, "batch_size"));
+    command.integrator = text("integrator");
+    command.heuristic = text("heuristic");
+    command.max_edges = text("max_edges") == "unlimited"
+                            ? ref::unlimited_edges
+                            : static_cast<int>(number_in(metadata, "max_edges"));
+    command.no_roulette = text("roulette") == "off";
+    command.frame = text("camera") == "framed";
+    command.seed = number_in(metadata, "seed");
+    return command;
+}
+
+fs::path golden_file(const GoldenCommand& options, const std::string& scene)
+{
+    return fs::path(options.folder) / fs::path(scene).stem().concat(".exr");
+}
+
+void add_golden_command(CLI::App& program, Work& work)
+{
+    const auto options = std::make_shared<GoldenCommand>();
+    CLI::App* command =
+        program.add_subcommand("golden", "Make, check and list the pictures that others are judged by");
+    command->add_option("scenes", options->scenes, "COLLADA files");
+    command->add_flag("--all", options->all, "All scenes in the folder scenes");
+    command->add_option("--folder", options->folder, "Where goldens are")->capture_default_str();
+    command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
+    command->add_option("-s,--samples", options->samples, "Samples per pixel, the pilot's included")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
+        ->capture_default_str();
+    command->add_option("--batch", options->batch_size, "Samples per pixel in a batch")
+        ->check(CLI::Range(1u, 1u << 20))
+        ->capture_default_str();
+    command
+        ->add_option("--pilot", options->pilot_batches,
+                     "Batches that choose weights and regions and are used for nothing else")
+        ->check(CLI::Range(std::uint64_t{2}, std::uint64_t{1} << 20))
+        ->capture_default_str();
+    command->add_option("--max-edges", options->max_edges, "Longest path, the camera's edge counted")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    command->add_option("-t,--threads", options->threads, "Threads; the picture does not depend on them")
+        ->check(CLI::Range(1u, 1024u));
+    command->add_option("--watch", options->watch, "Seconds between writes of what there is")
+        ->check(CLI::Range(0.0, 1e9))
+        ->capture_default_str();
+    CLI::Option* list = command->add_flag("--list", options->list, "Say what is there, make nothing");
+    command
+        ->add_option("--verify", options->verify,
+                     "Render so many batches of each golden again: the same bits?")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
+        ->excludes(list);
+    command->add_flag("-q,--quiet", options->quiet, "No progress and no notices");
+    command->footer("Interrupted, the same command goes on where it stopped.\n"
+                    "Example: plumbline golden scenes/cornell_glass.dae -s 10240");
+    command->callback([options, &work] { work = [options] { return golden_command(*options); }; });
+}
+
+} // namespace cli

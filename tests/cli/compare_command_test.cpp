@@ -1,0 +1,191 @@
+// `plumbline compare`: the verdict, the exit status, and what cannot be compared.
+
+#include "golden/exr.h"
+#include "golden/pfm.h"
+#include "tests/cli/run_program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace {
+
+using namespace cli_test;
+
+/// A golden of a scene that is lit from one direction: the noise is that of the plane's edge alone, so
+/// that few samples decide.
+class CompareCommand : public testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        shared = new TemporaryFolder;
+        const Outcome outcome =
+            run({"golden", scene_file("directional_over_plane"), "--folder", shared->path().string(),
+                 "--size", "16x16", "--batch", "8", "--pilot", "16", "-s", "768"});
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+    }
+    static void TearDownTestSuite()
+    {
+        delete shared;
+        shared = nullptr;
+    }
+    static inline TemporaryFolder* shared = nullptr;
+
+    TemporaryFolder folder;
+    std::string golden_file = (*shared / "directional_over_plane.exr").string();
+    std::string candidate = (folder / "candidate.exr").string();
+
+    static void render(const std::string& output, const Arguments& more = {},
+                       const std::string& scene = "directional_over_plane")
+    {
+        const Outcome outcome = run(Arguments{"render", scene_file(scene), "-o", output, "--size",
+                                              "16x16", "-s", "512", "--batch", "8", "--max-edges", "6"} +
+                                    more);
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+    }
+    [[nodiscard]] Outcome compare(const Arguments& candidates, const Arguments& more = {}) const
+    {
+        return run(Arguments{"compare"} + candidates + Arguments{golden_file} + more);
+    }
+    /// The candidate's mean, altered, as another renderer would give it.
+    [[nodiscard]] std::string altered(double factor) const
+    {
+        golden::Image image = golden::read_exr(candidate).mean;
+        for (golden::Rgb& pixel : image.pixels) pixel *= factor;
+        const std::string path = (folder / "altered.pfm").string();
+        golden::write_pfm(path, image);
+        return path;
+    }
+};
+
+TEST_F(CompareCommand, TheSameEstimatorPasses)
+{
+    render(candidate, {"--integrator", "bdpt", "--keep-batches"});
+    const Outcome outcome = compare({candidate});
+    EXPECT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+    EXPECT_EQ(outcome.out.rfind("PASS", 0), 0u) << outcome.out;
+    EXPECT_LE(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 24) << "more than one screen";
+}
+
+TEST_F(CompareCommand, ASceneIsRenderedHereByAnyIntegrator)
+{
+    for (const char* integrator : {"bdpt", "path"}) {
+        const Outcome outcome =
+            compare({scene_file("directional_over_plane")}, {"--integrator", integrator, "--seed", "7"});
+        EXPECT_EQ(outcome.status, 0) << integrator << outcome.err << outcome.out;
+    }
+}
+
+TEST_F(CompareCommand, SeveralIndependentPicturesPass)
+{
+    Arguments files;
+    for (const char* seed : {"1", "2", "3", "4", "5", "6", "7", "8"}) {
+        files.push_back((folder / (std::string(seed) + ".exr")).string());
+        render(files.back(), {"--seed", seed});
+    }
+    const Outcome outcome = compare(files);
+    EXPECT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+}
+
+TEST_F(CompareCommand, ADimmerPictureFails)
+{
+    render(candidate, {"--integrator", "bdpt"});
+    EXPECT_EQ(compare({altered(1.0)}, {"-s", "512"}).status, 0);
+    const Outcome outcome = compare({altered(0.95)}, {"-s", "512"});
+    EXPECT_EQ(outcome.status, 1) << outcome.out;
+    EXPECT_EQ(outcome.out.rfind("FAIL", 0), 0u) << outcome.out;
+}
+
+TEST_F(CompareCommand, TooFewSamplesAreInconclusive)
+{
+    TemporaryFolder goldens;
+    ASSERT_EQ(run({"golden", scene_file("cornell_glass"), "--folder", goldens.path().string(), "--size",
+                   "12x8", "--batch", "4", "--pilot", "4", "-s", "64"})
+                  .status,
+              0);
+    ASSERT_EQ(run({"render", scene_file("cornell_glass"), "-o", candidate, "--size", "12x8", "-s", "16",
+                   "--integrator", "bdpt", "--max-edges", "6"})
+                  .status,
+              0);
+    const Outcome outcome = run({"compare", candidate, (goldens / "cornell_glass.exr").string()});
+    EXPECT_EQ(outcome.status, 3) << outcome.err;
+    EXPECT_EQ(outcome.out.rfind("INCONCLUSIVE", 0), 0u) << outcome.out;
+}
+
+TEST_F(CompareCommand, PrintsOneJsonObject)
+{
+    render(candidate, {"--integrator", "bdpt", "--keep-batches"});
+    const Outcome outcome = compare({candidate}, {"--json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json.at("verdict"), "PASS");
+    EXPECT_EQ(json.at("whole").size(), 3u);
+    EXPECT_LE(json.at("whole")[0].at("low"), json.at("whole")[0].at("ratio"));
+    EXPECT_LE(json.at("whole")[0].at("ratio"), json.at("whole")[0].at("high"));
+    EXPECT_LE(json.at("detectable")[0], 0.005);
+    EXPECT_EQ(json.at("tiles")[0].at("z").size(), json.at("tiles")[0].at("columns").get<std::size_t>() *
+                                                      json.at("tiles")[0].at("rows").get<std::size_t>());
+}
+
+TEST_F(CompareCommand, WritesAPageAlsoOnFailure)
+{
+    render(candidate, {"--integrator", "bdpt"});
+    const std::string page = (folder / "report.html").string();
+    EXPECT_EQ(compare({altered(0.9)}, {"-s", "512", "--report", page}).status, 1);
+    const std::string html = read_bytes(page);
+    EXPECT_EQ(html.rfind("<!DOCTYPE html>", 0), 0u);
+    EXPECT_NE(html.find("<strong>FAIL.</strong>"), std::string::npos);
+    EXPECT_EQ(html.find("http://"), std::string::npos) << "loads something";
+    EXPECT_EQ(html.find("https://"), std::string::npos) << "loads something";
+    EXPECT_EQ(html.find("@DATA@"), std::string::npos);
+}
+
+TEST_F(CompareCommand, WhatCannotBeComparedIsSaidInOneLine)
+{
+    render(candidate, {"--integrator", "bdpt"});
+    const std::string plain = altered(1.0); // no metadata
+    const std::string other_size = (folder / "size.exr").string();
+    ASSERT_EQ(run({"render", scene_file("directional_over_plane"), "-o", other_size, "--size", "8x8",
+                   "-s", "4"})
+                  .status,
+              0);
+    const std::string other_scene = (folder / "scene.exr").string();
+    render(other_scene, {}, "spot_over_plane");
+    const std::string not_a_number = (folder / "nan.pfm").string();
+    golden::Image broken(16, 16);
+    broken.at(3, 4).y = std::numeric_limits<double>::quiet_NaN();
+    golden::write_pfm(not_a_number, broken);
+
+    const struct {
+        Arguments arguments;
+        const char* complaint;
+    } mistakes[] = {
+        {{"compare"}, "pictures"},
+        {{"compare", candidate}, "pictures"},
+        {{"compare", candidate, (folder / "none.exr").string()}, "none.exr"},
+        {{"compare", candidate, candidate}, "candidate.exr"}, // no golden
+        {{"compare", (folder / "none.exr").string(), golden_file}, "none.exr"},
+        {{"compare", plain, golden_file}, "give -s"},
+        {{"compare", plain, golden_file, "-s", "0"}, "--samples"},
+        {{"compare", plain, golden_file, "-s", "256", "--integrator", "path"}, "--integrator"},
+        {{"compare", plain, plain, golden_file, "-s", "256"}, "--samples"},
+        {{"compare", other_size, golden_file}, "8x8"},
+        {{"compare", other_scene, golden_file}, "scene"},
+        {{"compare", not_a_number, golden_file, "-s", "4"}, "(3, 4)"},
+        {{"compare", candidate, golden_file, "--report", "page.txt"}, "--report"},
+        {{"compare", candidate, golden_file, "--report", "/nowhere/page.html"}, "/nowhere"},
+        {{"compare", scene_file("spot_over_plane"), golden_file}, "scene"},
+        {{"compare", scene_file("directional_over_plane"), candidate, golden_file}, "alone"},
+    };
+    for (const auto& [arguments, complaint] : mistakes) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.status, 2) << complaint << '\n' << outcome.out;
+        EXPECT_NE(outcome.err.find(complaint), std::string::npos) << complaint << '\n' << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+    }
+}
+
+} // namespace
