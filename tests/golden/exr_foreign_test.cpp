@@ -148,12 +148,12 @@ TEST(ForeignExr, AttributesOfOthersAreNotOurMetadata)
 TEST(ForeignExr, ChannelsThatAreMissingOrSubsampledAreNamed)
 {
     const TemporaryFolder folder;
-    Imf::Header grey(width, height);
+    Imf::Header grey(window, window);
     grey.channels().insert("Y", Imf::Channel(Imf::FLOAT));
     write_scan_lines<float>(folder / "grey.exr", Imf::FLOAT, grey);
     EXPECT_EQ(error_of_reading(folder / "grey.exr"), "has no channel R; it has Y");
 
-    Imf::Header no_blue(width, height);
+    Imf::Header no_blue(window, window);
     no_blue.channels().insert("G", Imf::Channel(Imf::FLOAT));
     no_blue.channels().insert("R", Imf::Channel(Imf::FLOAT));
     write_scan_lines<float>(folder / "no_blue.exr", Imf::FLOAT, no_blue);
