@@ -113,7 +113,7 @@ std::array<double, 3> detectable_error(const Golden& golden, std::uint64_t batch
     const Functionals& functionals = golden.functionals;
     const double level = options.accuse / Multiplicity(functionals, Method::ranks).of(RegionKind::whole);
     std::array<double, 3> detectable{};
-    detectable.fill(nan);
+    detectable.fill(std::numeric_limits<double>::quiet_NaN());
     for (std::size_t channel = 0; channel < channels; ++channel)
         for (std::size_t f = 0; f < weights.size(); ++f) { // those of region 0, the whole picture
             if (!is_linear(functionals.at(f).weight)) continue;
