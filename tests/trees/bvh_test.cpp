@@ -131,20 +131,34 @@ TEST(Build, RejectsWhatIsNoBoxAndNamesIt)
         }
 }
 
-TEST(PrimitiveBounds, RejectsAVertexThatMinAndMaxWouldSwallow)
+std::string message(const scenes::Scene& scene)
+{
+    try {
+        ref::primitive_bounds(scene);
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(PrimitiveBounds, RejectsAVertexThatMinAndMaxWouldSwallowAndNamesItsPrimitive)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
-        scenes::Scene scene;
-        scene.triangles.assign(4, {{Vec3(0), Vec3(1), Vec3(2)}, 0});
-        scene.triangles[2].vertices[vertex].y = nan;
-        EXPECT_THROW(ref::primitive_bounds(scene), std::invalid_argument);
-    }
     scenes::Scene scene;
-    scene.spheres = {{Vec3(0), 1, 0}, {Vec3(0, nan, 0), 1, 0}};
-    EXPECT_THROW(ref::primitive_bounds(scene), std::invalid_argument);
-    scene.spheres[1] = {Vec3(0), std::numeric_limits<double>::infinity(), 0};
-    EXPECT_THROW(ref::primitive_bounds(scene), std::invalid_argument);
+    scene.triangles.assign(4, {{Vec3(0), Vec3(1), Vec3(2)}, 0});
+    scene.spheres = {{Vec3(0), 1, 0}, {Vec3(0), 1, 0}};
+    EXPECT_EQ(message(scene), "");
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+        scenes::Scene broken = scene;
+        broken.triangles[2].vertices[vertex].y = nan;
+        EXPECT_EQ(message(broken).substr(0, 13), "primitive 2: ");
+    }
+    for (const scenes::Sphere& sphere : {scenes::Sphere{Vec3(0, nan, 0), 1, 0},
+                                         {Vec3(0), std::numeric_limits<double>::infinity(), 0}}) {
+        scenes::Scene broken = scene;
+        broken.spheres[1] = sphere;
+        EXPECT_EQ(message(broken).substr(0, 13), "primitive 5: ");
+    }
 }
 
 TEST(PrimitiveBounds, AreThoseOfTheVerticesAndAroundTheSphere)

@@ -108,6 +108,38 @@ TEST(LeaveSurface, ARayFromATriangleMeetsNeitherItNorItsDuplicate)
     }
 }
 
+TEST(SurfacePoint, IsWhereTheRayMeetsTheSurfaceAndKnowsItsSideAndMaterial)
+{
+    Random random(7);
+    for (const double size : {1e-15, 1.0, 1e15})
+        for (int i = 0; i < 2000; ++i) {
+            scenes::Scene scene = empty_scene();
+            scene.triangles = {{sliver(size, 3, random), 4}, {sliver(size, 3, random), 5}};
+            scene.spheres = {{size * random.in_cube(), size * random.uniform(0.1, 1), 6},
+                             {size * random.in_cube(), size * random.uniform(0.1, 1), 7}};
+            const Geometry geometry(scene);
+            const Ray ray{2 * size * random.in_cube(), random.direction()};
+            const auto hit = intersect(geometry, ray);
+            if (!hit) continue;
+            const SurfacePoint point = surface_point(geometry, ray, *hit);
+            // Both are good to some tens of roundings of the scene's size, times the triangle's aspect
+            // and 1 / cosine, which is large for grazing rays.
+            const double cosine = std::abs(glm::dot(ray.direction, point.normal));
+            const double distance = glm::length(point.position - (ray.origin + hit->t * ray.direction));
+            EXPECT_LE(distance * cosine, 1000 * u * size);
+            EXPECT_EQ(point.primitive, hit->primitive);
+            EXPECT_EQ(point.material, hit->primitive + 4);
+            EXPECT_NEAR(glm::length(point.normal), 1, 4 * u);
+            if (hit->primitive < 2) {
+                const auto& v = scene.triangles[hit->primitive].vertices;
+                EXPECT_GT(glm::dot(point.normal, glm::cross(v[1] - v[0], v[2] - v[0])), 0);
+            } else {
+                const Vec3& center = scene.spheres[hit->primitive - 2].center;
+                EXPECT_GT(glm::dot(point.normal, point.position - center), 0);
+            }
+        }
+}
+
 struct Ball {
     double radius, distance;
 };

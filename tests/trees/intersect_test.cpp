@@ -183,6 +183,37 @@ TEST(IntersectTriangle, TheLimitIsStrictAndZeroIsNoHit)
     EXPECT_FALSE(hit({Vec3(0), -z}));
 }
 
+// From points in the plane of a triangle, up to rounding: whatever is hit is certainly ahead. The ray
+// and the triangle are taken as sheared; their t is the sign of U Az + V Bz + W Cz against that of U + V
+// + W.
+TEST(IntersectTriangle, WhatIsHitIsCertainlyAhead)
+{
+    Random random(6);
+    int hits = 0;
+    int misses = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const std::array<Vec3, 3> v{random.in_cube(), random.in_cube(), random.in_cube()};
+        const Vec3 b = random.barycentric();
+        const Ray ray{b[0] * v[0] + b[1] * v[1] + b[2] * v[2], random.direction()};
+        const ref::ShearedRay sheared(ray);
+        if (!ref::intersect_triangle(sheared, v)) {
+            ++misses;
+            continue;
+        }
+        ++hits;
+        const Exact A = exact(sheared.shear(v[0]));
+        const Exact B = exact(sheared.shear(v[1]));
+        const Exact C = exact(sheared.shear(v[2]));
+        const cpp_rational U = C[0] * B[1] - C[1] * B[0];
+        const cpp_rational V = A[0] * C[1] - A[1] * C[0];
+        const cpp_rational W = B[0] * A[1] - B[1] * A[0];
+        const cpp_rational ahead = U * A[2] + V * B[2] + W * C[2];
+        EXPECT_EQ(sign(ahead), sign(cpp_rational(U + V + W))) << "ray " << i;
+    }
+    EXPECT_GT(misses, 15000); // what is not certain is no hit
+    EXPECT_GT(hits, 500); // and what is certain is one
+}
+
 TEST(IntersectTriangle, TinyTrianglesAreHitAsOftenAsLargeOnes) // an absolute threshold on det loses them
 {
     const auto hits = [](double scale) {

@@ -101,6 +101,16 @@ TEST(Quality, OfAHandMadeTreeIsWhatOneCounts)
     EXPECT_DOUBLE_EQ(found.overlap, 1.0 / 5); // the face they share
 }
 
+TEST(Quality, ALeafCostsAsManyTestsAsItHoldsPrimitives)
+{
+    Tree tree; // one leaf, the root: every ray that meets it tests all that it holds
+    tree.nodes.resize(1);
+    tree.bounds = {{Vec3(0), Vec3(1)}};
+    tree.leaf_begin = {0, 3};
+    tree.primitives = {0, 1, 2};
+    EXPECT_EQ(ref::quality(tree).sah_cost, 3 * ref::C_isect);
+}
+
 TEST(Quality, OfNoTreeAndOfOneLeafAndOfNoAreaIsFinite)
 {
     EXPECT_EQ(ref::quality(Tree{}).sah_cost, 0);

@@ -251,6 +251,25 @@ TEST(Traverse, GoesThroughATreeOfAnyDepth) // no stack of 64 that a chain overfl
     }
 }
 
+TEST(Traverse, EntersTheNearerChildFirstAndNoBoxBeyondAHit)
+{
+    scenes::Scene scene = scene_of(test::Mesh{});
+    for (const double z : {1.0, 2.0})
+        scene.triangles.push_back({{Vec3(-1, -1, z), Vec3(3, -1, z), Vec3(-1, 3, z)}, 0});
+    for (const Builder builder : builders) {
+        const Geometry geometry(scene, builder);
+        for (const double from : {0.0, 3.0}) {
+            ref::Work work;
+            const auto hit = intersect(geometry, {Vec3(0, 0, from), Vec3(0, 0, 1.5 - from)}, &work);
+            ASSERT_TRUE(hit);
+            EXPECT_EQ(hit->primitive, from < 1 ? 0u : 1u);
+            if (geometry.tree().leaf_count() == 1) continue; // both in one leaf: no choice
+            EXPECT_EQ(work.nodes, 2u);                       // the root and the nearer leaf
+            EXPECT_EQ(work.primitives, 1u);
+        }
+    }
+}
+
 TEST(Traverse, StopsWhenToldTo)
 {
     const scenes::Scene scene = scene_of(test::icosphere(3, 1));
