@@ -211,7 +211,7 @@ TEST(IntersectTriangle, WhatIsHitIsCertainlyAhead)
         EXPECT_EQ(sign(ahead), sign(cpp_rational(U + V + W))) << "ray " << i;
     }
     EXPECT_GT(misses, 15000); // what is not certain is no hit
-    EXPECT_GT(hits, 500); // and what is certain is one
+    EXPECT_GT(hits, 500);     // and what is certain is one
 }
 
 TEST(IntersectTriangle, TinyTrianglesAreHitAsOftenAsLargeOnes) // an absolute threshold on det loses them
