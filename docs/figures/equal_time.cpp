@@ -1,6 +1,6 @@
 // Where does it pay to trace from both ends? The error of path tracing, bidirectional path tracing and
-// light tracing after the same CPU time, on each scene; and where the time of a bidirectional sample
-// goes.
+// light tracing after one second of CPU time, on each scene; and where the time of a bidirectional
+// sample goes.
 //
 // usage: figure_equal_time [SCENE.dae...] [--frame SCENE.dae...]
 // Writes a table of docs/bdpt.md to stdout. 96 x 64 pixels, at most 6 edges, one thread; the camera of
@@ -30,8 +30,8 @@ namespace {
 constexpr int width = 96;
 constexpr int height = 64;
 constexpr int max_edges = 6;
-constexpr double seconds_each = 1.5;       // CPU time of every rendering that is judged
-constexpr double seconds_reference = 24.0; // of the bidirectional one that they are judged against
+constexpr double seconds_each = 0.5;      // CPU time of every rendering that is judged
+constexpr double seconds_reference = 6.0; // of the bidirectional one that they are judged against
 
 double cpu_now()
 {
@@ -42,17 +42,21 @@ double cpu_now()
 
 struct Timed {
     golden::Image image;
-    double samples_per_second;
+    double samples;
+    double seconds; // that they took
 };
 
-/// As many batches as fit into the time.
+/// As many samples per pixel as fit into the time; what was begun and not finished does not count.
 Timed render_for(const ref::World& world, ref::Integrator integrator, std::uint64_t seed, double seconds)
 {
     golden::Film film(width, height);
     const double start = cpu_now();
-    ref::render(world, integrator, {{.seed = seed, .max_edges = max_edges}, 1U << 20, 4, 1}, film,
-                {{}, [&] { return cpu_now() - start > seconds; }});
-    return {film.mean(), static_cast<double>(film.batches() * 4) * width * height / (cpu_now() - start)};
+    double kept = 0.0;
+    ref::render(world, integrator, {{.seed = seed, .max_edges = max_edges}, 1U << 20, 1, 1}, film,
+                {{},
+                 [&] { return kept > 0.0 && cpu_now() - start > seconds; },
+                 [&](const golden::Film&) { kept = cpu_now() - start; }});
+    return {film.mean(), static_cast<double>(film.batches()) * width * height, kept};
 }
 
 /// Mean over pixels and channels of (image - reference)^2 / (reference^2 + 1e-4 m^2), m the mean of the
@@ -145,8 +149,10 @@ void judge(const char* file, bool framed)
          {ref::trace_path, ref::trace_bidirectionally, ref::trace_light}) {
         const Timed timed = render_for(world, integrator, 2, seconds_each);
         const bool blind = integrator == ref::trace_light && !light_tracing_sees_everything(scene);
-        std::printf(" %.0fk | %.2g%s |", timed.samples_per_second / 1000.0,
-                    relative_mean_square_error(timed.image, reference.image), blind ? " *" : "");
+        // The error of independent samples is inverse to the time: after one second of it.
+        std::printf(" %.0fk | %.2g%s |", timed.samples / timed.seconds / 1000.0,
+                    relative_mean_square_error(timed.image, reference.image) * timed.seconds,
+                    blind ? " *" : "");
     }
     for (const double share : shares_of_time(world)) std::printf(" %.0f%% |", 100.0 * share);
     std::printf("\n");
