@@ -1,0 +1,25 @@
+#pragma once
+
+// Rays and what they find. `t` counts in multiples of the direction, which need not have unit length.
+
+#include "cuda/trees/triangle.h"
+
+#include <cstdint>
+
+namespace gpu {
+
+/// The points origin + t * direction with 0 < t < t_max.
+struct Ray {
+    Vec3 origin;
+    float t_max;
+    Vec3 direction;
+};
+
+/// Where a ray meets a primitive, or no_primitive.
+struct Hit {
+    float t;
+    std::uint32_t primitive;
+    float b1, b2; // weights of the second and third vertex
+};
+
+} // namespace gpu

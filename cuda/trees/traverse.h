@@ -1,0 +1,212 @@
+#pragma once
+
+// A ray's way through a tree, and the two questions that it answers: what is hit first, and is anything
+// hit?
+
+#include "cuda/trees/intersect.h"
+#include "cuda/trees/node.h"
+#include "cuda/trees/slabs.h"
+#include "cuda/trees/wide_node.h"
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace gpu {
+
+/// What rays need of a tree. Triangles are in the order of leaves: a leaf's number is its triangle's.
+struct TreeView {
+    std::span<const Node> nodes;
+    std::span<const std::uint32_t> primitives; // by leaf: which primitive its triangle is
+    std::span<const Triangle> triangles;       // by leaf
+};
+
+struct WideTreeView {
+    std::span<const WideNode> nodes;
+    std::span<const std::uint32_t> primitives;
+    std::span<const Triangle> triangles;
+};
+
+/// Kernel over leaves: brings triangles into their order.
+struct OrderTriangles {
+    std::span<const Triangle> triangles;
+    std::span<const std::uint32_t> primitives;
+    std::span<Triangle> ordered;
+
+    HD void operator()(std::uint32_t leaf) const { ordered[leaf] = triangles[primitives[leaf]]; }
+};
+
+/// Deeper than any tree: code bits and the bits of an index (radix_tree.h), 63 + 29.
+constexpr int deepest_tree = 92;
+
+/// Nodes and leaves that a ray has yet to visit, and where it would enter them.
+class Waiting {
+public:
+    HD void push(std::uint32_t child, float entry)
+    {
+        children_[height_] = child;
+        entries_[height_] = entry;
+        ++height_;
+    }
+    HD void push_if(bool wanted, std::uint32_t child, float entry)
+    {
+        children_[height_] = child;
+        entries_[height_] = entry;
+        height_ += wanted ? 1 : 0;
+    }
+    /// Takes the latest one that begins at t <= limit away, and those above; false if there is none.
+    /// What begins at the very limit counts: it may hold a primitive of lower number at the same t.
+    HD bool pop(float limit, std::uint32_t& child)
+    {
+        while (height_ > 0) {
+            --height_;
+            child = children_[height_];
+            if (entries_[height_] <= limit) return true;
+        }
+        return false;
+    }
+
+private:
+    // A step down a tree leaves one child waiting; one down a wide tree, which is two at least, three.
+    static constexpr int most = deepest_tree + deepest_tree / 2 + 6;
+    std::uint32_t children_[most];
+    float entries_[most];
+    int height_ = 0;
+};
+
+/// Calls test(leaf) for every leaf whose box the ray enters at a t <= limit, of two children the nearer
+/// one first. `test` returns the limit from then on: the t of the closest hit so far, or a negative
+/// number to stop. Of a tree over one primitive the only leaf is tested in any case.
+template <class Test>
+HD void traverse(const TreeView& tree, const Ray& ray, const Test& test)
+{
+    if (tree.nodes.empty()) {
+        if (!tree.primitives.empty()) test(0);
+        return;
+    }
+    const Slabs slabs(ray, unite(tree.nodes[0].bounds[0], tree.nodes[0].bounds[1]));
+    constexpr float never = std::numeric_limits<float>::infinity();
+    float limit = ray.t_max;
+    Waiting waiting;
+    std::uint32_t next = 0;
+    do {
+        if (is_leaf(next)) {
+            limit = test(next & ~leaf_bit);
+            continue;
+        }
+        const Node& node = tree.nodes[next];
+        const float entry[2] = {slabs.entry(node.bounds[0], limit), slabs.entry(node.bounds[1], limit)};
+        const int nearer = entry[1] < entry[0] ? 1 : 0;
+        for (const int side : {1 - nearer, nearer})
+            if (entry[side] < never) waiting.push(node.children[side], entry[side]);
+    } while (waiting.pop(limit, next));
+}
+
+/// More than the bits of any float that is not negative.
+constexpr std::uint32_t not_entered = 0xffff'ffff;
+
+/// In five steps, whatever they are.
+HD inline void sort_four(std::uint32_t (&keys)[4])
+{
+    const auto order = [&](int i, int j) {
+        const std::uint32_t smaller = keys[i] < keys[j] ? keys[i] : keys[j];
+        const std::uint32_t larger = keys[i] < keys[j] ? keys[j] : keys[i];
+        keys[i] = smaller;
+        keys[j] = larger;
+    };
+    order(0, 1);
+    order(2, 3);
+    order(0, 2);
+    order(1, 3);
+    order(1, 2);
+}
+
+/// The same by way of the wide nodes.
+template <class Test>
+HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test)
+{
+    if (tree.nodes.empty()) {
+        if (!tree.primitives.empty()) test(0);
+        return;
+    }
+    const Slabs slabs(ray, tree.nodes[0]);
+    float limit = ray.t_max;
+    Waiting waiting;
+    std::uint32_t next = 0;
+    do {
+        if (is_leaf(next)) {
+            limit = test(next & ~leaf_bit);
+            continue;
+        }
+        const WideNode& node = tree.nodes[next];
+        Lanes near;
+        Lanes far;
+        slabs.entries(node, limit, near, far);
+        // Floats that are not negative sort like their bits. The lowest two bits make room for the
+        // number of the child: so an entry is rounded down by at most 3 ulps, which can only cost a
+        // visit. No branch depends on which boxes are entered.
+        std::uint32_t keys[4];
+        for (int lane = 0; lane < 4; ++lane)
+            keys[lane] = near[lane] <= far[lane] ? (std::bit_cast<std::uint32_t>(near[lane]) & ~3u) |
+                                                       static_cast<unsigned>(lane)
+                                                 : not_entered;
+        sort_four(keys);
+        for (int i = 3; i >= 0; --i)
+            waiting.push_if(keys[i] != not_entered, node.children[keys[i] & 3],
+                            std::bit_cast<float>(keys[i] & ~3u));
+    } while (waiting.pop(limit, next));
+}
+
+/// The hit of smallest t; of several at the same t, that of the lowest primitive number, so that the
+/// answer does not depend on the tree.
+template <class View>
+HD Hit closest_hit(const View& tree, const Ray& ray)
+{
+    const ShearedRay sheared(ray);
+    Hit best{ray.t_max, no_primitive, 0, 0};
+    traverse(tree, ray, [&](std::uint32_t leaf) {
+        Hit hit{0, tree.primitives[leaf], 0, 0};
+        if (intersect_triangle(sheared, tree.triangles[leaf], ray.t_max, hit) &&
+            (hit.t < best.t || (hit.t == best.t && hit.primitive < best.primitive)))
+            best = hit;
+        return best.t;
+    });
+    return best;
+}
+
+/// Whether the ray hits anything.
+template <class View>
+HD bool any_hit(const View& tree, const Ray& ray)
+{
+    const ShearedRay sheared(ray);
+    bool found = false;
+    traverse(tree, ray, [&](std::uint32_t leaf) {
+        Hit hit{};
+        found = found || intersect_triangle(sheared, tree.triangles[leaf], ray.t_max, hit);
+        return found ? -1.0f : ray.t_max;
+    });
+    return found;
+}
+
+/// Kernel over rays.
+template <class View>
+struct FindClosestHits {
+    View tree;
+    std::span<const Ray> rays;
+    std::span<Hit> hits;
+
+    HD void operator()(std::uint32_t i) const { hits[i] = closest_hit(tree, rays[i]); }
+};
+
+/// Kernel over rays: 1 where anything is hit, 0 elsewhere.
+template <class View>
+struct FindAnyHits {
+    View tree;
+    std::span<const Ray> rays;
+    std::span<std::uint8_t> hits;
+
+    HD void operator()(std::uint32_t i) const { hits[i] = any_hit(tree, rays[i]) ? 1 : 0; }
+};
+
+} // namespace gpu
