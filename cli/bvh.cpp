@@ -5,6 +5,7 @@
 #include "cli/builders.h"
 #include "cli/bvh_measure.h"
 #include "cli/bvh_picture.h"
+#include "cli/bvh_stages.h"
 #include "cli/bvh_svg.h"
 #include "cli/scene_input.h"
 #include "golden/atomic_file.h"
@@ -34,6 +35,8 @@ struct Options {
     std::string figure;
     int level = 4;
     int repeats = 5;
+    std::string device;
+    unsigned threads = 1;
     std::string size = "240x160";
     bool frame = false;
     bool json = false;
@@ -120,6 +123,15 @@ ExitStatus bvh(const Options& options)
         const ref::Geometry geometry(scene, chosen(options).front().builder);
         golden::write_png(options.picture, picture_of(geometry, options, size));
     }
+    if (!options.device.empty()) {
+        const nlohmann::json stages =
+            measure_stages(scene, options.device, options.threads, options.repeats);
+        if (options.json)
+            std::cout << stages.dump() << std::endl;
+        else
+            print_stages(stages);
+        return stages["plausible"].get<bool>() ? fine : check_failed;
+    }
     const bool only_drawn = !options.figure.empty() || !options.picture.empty();
     if (only_drawn && !options.json) return fine;
 
@@ -162,6 +174,12 @@ void add_bvh_command(CLI::App& program, Work& work)
         ->capture_default_str();
     command->add_option("--repeats", options->repeats, "Builds, of which the median time counts")
         ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command
+        ->add_option("--device", options->device, "Time the stages of the fast path instead: host, cuda")
+        ->check(CLI::IsMember({"host", "cuda"}));
+    command->add_option("-t,--threads", options->threads, "For --device host")
+        ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     command->add_flag("--frame", options->frame,
                       "Move the camera back to where it sees the whole scene");

@@ -22,6 +22,13 @@ Device no_device(cudaError_t reason)
                        ", no CUDA device found: " + cudaGetErrorString(reason)};
 }
 
+/// Of device 0; 0 if it does not say.
+int attribute(cudaDeviceAttr which)
+{
+    int value = 0;
+    return cudaDeviceGetAttribute(&value, which, 0) == cudaSuccess ? value : 0;
+}
+
 } // namespace
 
 Device find_device()
@@ -45,7 +52,11 @@ Device find_device()
     if (error == cudaSuccess) error = cudaDeviceSynchronize();
     if (error != cudaSuccess)
         return {false, description + ", cannot be used: " + cudaGetErrorString(error)};
-    return {true, description};
+    // Two transfers per clock; the clock is in kHz.
+    const double clock = 1e3 * attribute(cudaDevAttrMemoryClockRate);
+    const double bus_bytes = attribute(cudaDevAttrGlobalMemoryBusWidth) / 8.0;
+    return {true, description, 2 * clock * bus_bytes,
+            static_cast<std::size_t>(attribute(cudaDevAttrL2CacheSize))};
 }
 
 std::string describe_device()

@@ -5,6 +5,7 @@
 #include "cuda/parallel/executor.cuh"
 #include "cuda/parallel/primitives.cuh"
 #include "cuda/trees/lbvh.h"
+#include "cuda/trees/traverse.h"
 
 #include <utility>
 #include <variant>
@@ -132,6 +133,27 @@ BuiltTree DeviceLbvh::download() const
                              read(tree.leaf_links()),
                              read(tree.primitives()),
                              {codes.begin(), codes.end()}};
+        },
+        parts_->tree);
+}
+
+std::vector<Hit> DeviceLbvh::closest_hits(std::span<const Triangle> triangles, std::span<const Ray> rays)
+{
+    return std::visit(
+        [&](const auto& tree) {
+            Parts& on = *parts_;
+            const Buffer<Triangle> given(on.memory, triangles);
+            const Buffer<Ray> asked(on.memory, rays);
+            Buffer<Triangle> ordered(on.memory, triangles.size());
+            Buffer<WideNode> wide(on.memory, tree.nodes().size());
+            Buffer<Hit> hits(on.memory, rays.size());
+            on.executor(tree.primitive_count(),
+                        OrderTriangles{given.all(), tree.primitives(), ordered.all()});
+            on.executor(static_cast<std::uint32_t>(wide.size()), WidenNodes{tree.nodes(), wide.all()});
+            const WideTreeView view{wide.all(), tree.primitives(), ordered.all()};
+            on.executor(static_cast<std::uint32_t>(rays.size()),
+                        FindClosestHits<WideTreeView>{view, asked.all(), hits.all()});
+            return hits.read(rays.size());
         },
         parts_->tree);
 }

@@ -3,6 +3,7 @@
 // Trees on a GPU, for code that is not compiled by nvcc.
 
 #include "cuda/trees/node.h"
+#include "cuda/trees/ray.h"
 
 #include <array>
 #include <cstdint>
@@ -45,6 +46,11 @@ public:
     /// Waits for the build, and copies the tree. Throws std::invalid_argument that names the first box
     /// that is none.
     [[nodiscard]] BuiltTree download() const;
+
+    /// The closest hits of rays with the triangles whose boxes (BoundTriangles) the tree was built over,
+    /// by way of wide nodes.
+    [[nodiscard]] std::vector<Hit> closest_hits(std::span<const Triangle> triangles,
+                                                std::span<const Ray> rays);
 
 private:
     struct Parts;

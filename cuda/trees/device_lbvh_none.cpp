@@ -31,4 +31,10 @@ BuiltTree DeviceLbvh::download() const
     return {};
 }
 
+std::vector<Hit> DeviceLbvh::closest_hits(std::span<const Triangle> /*triangles*/,
+                                          std::span<const Ray> /*rays*/)
+{
+    return {};
+}
+
 } // namespace gpu

@@ -5,6 +5,7 @@
 #include "cuda/parallel/memory.h"
 #include "tests/cuda/build_on.h"
 #include "tests/cuda/on_device.h"
+#include "tests/cuda/triangles.h"
 #include "tests/trees/boxes.h"
 
 #include <gtest/gtest.h>
@@ -80,6 +81,27 @@ TEST_F(OnDevice, StagesTakeTimeAndGiveTheSameTree)
     tree.build(boxes);
     for (const float milliseconds : tree.time_stages()) EXPECT_GT(milliseconds, 0);
     EXPECT_TRUE(same(tree.download(), build_on({cuda_test::On::serial, 63}, boxes)));
+}
+
+TEST_F(OnDevice, RaysFindTheHitsThatTheHostFinds) // bit for bit: no multiply-add is fused on either side
+{
+    const auto triangles = cuda_test::triangles_of(test::icosphere(4, 0.5));
+    std::vector<gpu::Box> boxes(triangles.size());
+    gpu::SerialExecutor{}(static_cast<std::uint32_t>(boxes.size()),
+                          gpu::BoundTriangles{triangles, boxes});
+    Random random(1);
+    std::vector<gpu::Ray> rays;
+    for (int i = 0; i < 10000; ++i)
+        rays.push_back({gpu::Vec3(2.0 * random.in_cube()), std::numeric_limits<float>::infinity(),
+                        gpu::Vec3(random.direction())});
+    gpu::DeviceLbvh tree(static_cast<std::uint32_t>(boxes.size()), 63);
+    tree.build(boxes);
+    const std::vector<gpu::Hit> hits = tree.closest_hits(triangles, rays);
+    const cuda_test::Traceable host(triangles);
+    using Words = std::array<std::uint32_t, 4>;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        ASSERT_EQ(std::bit_cast<Words>(hits[i]), std::bit_cast<Words>(closest_hit(host.wide(), rays[i])))
+            << i;
 }
 
 TEST_F(OnDevice, OutOfMemoryNamesBytesAndLeavesTheDeviceUsable)

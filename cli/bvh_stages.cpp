@@ -1,0 +1,192 @@
+#include "cli/bvh_stages.h"
+
+#include "cuda/device.h"
+#include "cuda/parallel/threaded_executor.h"
+#include "cuda/trees/device_lbvh.h"
+#include "cuda/trees/lbvh.h"
+#include "cuda/trees/scene_geometry.h"
+#include "cuda/trees/traffic.h"
+
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <iomanip>
+#include <iostream>
+
+namespace cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Milliseconds = std::array<double, gpu::stage_names.size()>;
+
+double ms_between(Clock::time_point start, Clock::time_point end)
+{
+    return std::chrono::duration<double, std::milli>(end - start).count();
+}
+
+/// Kernel over blocks of a mebibyte.
+struct CopyBlock {
+    static constexpr std::size_t size = 1 << 20;
+    std::span<const char> from;
+    std::span<char> to;
+    void operator()(std::uint32_t i) const { std::memcpy(&to[i * size], &from[i * size], size); }
+};
+
+/// Bytes that the memory of the host moves per second, reading and writing: the best of some copies.
+double host_bandwidth(gpu::ThreadedExecutor& executor)
+{
+    constexpr std::uint32_t blocks = 192;
+    const std::vector<char> from(blocks * CopyBlock::size, 1);
+    std::vector<char> to(from.size());
+    double best = 0;
+    for (int i = 0; i < 5; ++i) {
+        const auto start = Clock::now();
+        executor(blocks, CopyBlock{from, to});
+        const double bytes = 2 * static_cast<double>(from.size());
+        best = std::max(best, bytes / (1e-3 * ms_between(start, Clock::now())));
+    }
+    return best;
+}
+
+std::size_t host_cache()
+{
+    const long bytes = sysconf(_SC_LEVEL3_CACHE_SIZE);
+    return bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
+}
+
+template <class Code>
+std::vector<Milliseconds> time_on_host(gpu::ThreadedExecutor& executor,
+                                       const std::vector<gpu::Box>& boxes, int repeats)
+{
+    gpu::HostMemory memory;
+    gpu::Lbvh<Code> tree(memory, executor, static_cast<std::uint32_t>(boxes.size()));
+    tree.build(executor, boxes); // touches all memory once
+    gpu::throw_if_rejected(tree.first_rejected(), boxes);
+    std::vector<Milliseconds> times(static_cast<std::size_t>(repeats));
+    for (Milliseconds& stages : times) {
+        auto start = Clock::now();
+        tree.build(executor, boxes, [&](gpu::Stage stage) {
+            const auto end = Clock::now();
+            stages[static_cast<std::size_t>(stage)] = ms_between(start, end);
+            start = end;
+        });
+    }
+    return times;
+}
+
+std::vector<Milliseconds> time_on_device(const std::vector<gpu::Box>& boxes, int code_bits, int repeats)
+{
+    gpu::DeviceLbvh tree(static_cast<std::uint32_t>(boxes.size()), code_bits);
+    tree.build(boxes);
+    static_cast<void>(tree.download()); // rejects what is no box
+    std::vector<Milliseconds> times(static_cast<std::size_t>(repeats));
+    for (Milliseconds& stages : times) std::ranges::copy(tree.time_stages(), stages.begin());
+    return times;
+}
+
+double median(std::vector<double> values)
+{
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// The entry of one builder. A bandwidth of 0 is not known.
+nlohmann::json report_of(const std::vector<Milliseconds>& times, std::uint32_t primitives, int code_bits,
+                         const gpu::SortPasses& passes, double bandwidth, std::size_t cache)
+{
+    nlohmann::json stages = nlohmann::json::array();
+    double total_ms = 0;
+    double total_bytes = 0;
+    bool plausible = true;
+    for (std::size_t i = 0; i < gpu::stage_names.size(); ++i) {
+        std::vector<double> ms;
+        for (const Milliseconds& one : times) ms.push_back(one[i]);
+        const double typical = median(ms);
+        const double bytes = gpu::bytes_moved(static_cast<gpu::Stage>(i), primitives, code_bits, passes);
+        const double per_second = typical > 0 ? bytes / (1e-3 * typical) : 0;
+        nlohmann::json stage = {{"name", gpu::stage_names[i]}, {"ms", typical}, {"bytes", bytes}};
+        if (bandwidth > 0) stage["percent_of_bandwidth"] = 100 * per_second / bandwidth;
+        if (bandwidth > 0 && per_second > bandwidth && bytes > 2 * static_cast<double>(cache))
+            plausible = false;
+        stages.push_back(stage);
+        total_ms += typical;
+        total_bytes += bytes;
+    }
+    return {{"name", code_bits == 30 ? "morton30" : "morton63"},
+            {"stages", stages},
+            {"ms", total_ms},
+            {"bytes_per_primitive", primitives > 0 ? total_bytes / primitives : 0},
+            {"plausible", plausible}};
+}
+
+} // namespace
+
+nlohmann::json measure_stages(const scenes::Scene& scene, const std::string& device, unsigned threads,
+                              int repeats)
+{
+    const std::vector<gpu::Box> boxes = gpu::boxes_of(scene);
+    const auto n = static_cast<std::uint32_t>(boxes.size());
+    nlohmann::json report = {{"scene", scene.name}, {"primitives", n}, {"device", device}};
+    nlohmann::json builders = nlohmann::json::array();
+    if (device == "cuda") {
+        const gpu::Device found = gpu::find_device();
+        if (!found.usable) throw std::runtime_error("--device cuda: " + found.description);
+        report["described"] = found.description;
+        report["bytes_per_second"] = found.bytes_per_second;
+        for (const int bits : {30, 63})
+            builders.push_back(report_of(time_on_device(boxes, bits, repeats), n, bits,
+                                         gpu::passes_on_device(bits), found.bytes_per_second,
+                                         found.cache_bytes));
+    } else {
+        gpu::ThreadedExecutor executor(threads);
+        const double bandwidth = host_bandwidth(executor);
+        report["described"] = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+        report["bytes_per_second"] = bandwidth;
+        for (const int bits : {30, 63}) {
+            const auto times = bits == 30 ? time_on_host<std::uint32_t>(executor, boxes, repeats)
+                                          : time_on_host<std::uint64_t>(executor, boxes, repeats);
+            builders.push_back(
+                report_of(times, n, bits, gpu::passes_on_host(bits), bandwidth, host_cache()));
+        }
+    }
+    report["plausible"] = std::ranges::all_of(
+        builders, [](const nlohmann::json& builder) { return builder["plausible"].get<bool>(); });
+    report["builders"] = std::move(builders);
+    return report;
+}
+
+void print_stages(const nlohmann::json& report)
+{
+    const auto bandwidth = report["bytes_per_second"].get<double>();
+    std::cout << std::fixed << report["scene"].get<std::string>() << ": " << report["primitives"]
+              << " primitives; " << report["device"].get<std::string>() << ", "
+              << report["described"].get<std::string>() << ", " << std::setprecision(1)
+              << bandwidth * 1e-9 << " GB/s\nbuilder   stage         ms   MB moved  % of bandwidth\n";
+    for (const nlohmann::json& builder : report["builders"]) {
+        for (const nlohmann::json& stage : builder["stages"]) {
+            std::cout << std::left << std::setw(10) << builder["name"].get<std::string>() << std::setw(7)
+                      << stage["name"].get<std::string>() << std::right << std::setprecision(3)
+                      << std::setw(9) << stage["ms"].get<double>() << std::setprecision(2)
+                      << std::setw(11) << stage["bytes"].get<double>() * 1e-6;
+            if (stage.contains("percent_of_bandwidth"))
+                std::cout << std::setprecision(1) << std::setw(16)
+                          << stage["percent_of_bandwidth"].get<double>();
+            std::cout << '\n';
+        }
+        std::cout << std::left << std::setw(10) << builder["name"].get<std::string>() << "all    "
+                  << std::right << std::setprecision(3) << std::setw(9) << builder["ms"].get<double>()
+                  << ", " << std::setprecision(0) << builder["bytes_per_primitive"].get<double>()
+                  << " bytes per primitive\n";
+    }
+    if (!report["plausible"].get<bool>())
+        std::cout << "A stage claims to move more than the memory can: some figure is wrong.\n";
+}
+
+} // namespace cli
