@@ -4,6 +4,7 @@
 #include "cuda/parallel/device_memory.cuh"
 #include "cuda/parallel/executor.cuh"
 #include "cuda/parallel/primitives.cuh"
+#include "cuda/trees/hploc.h"
 #include "cuda/trees/lbvh.h"
 #include "cuda/trees/traverse.h"
 
@@ -64,6 +65,13 @@ struct DeviceLbvh::Parts {
     {}
     /// The boxes of the last build, on the device.
     [[nodiscard]] std::span<const Box> current() const { return boxes.first(count); }
+    template <class T>
+    [[nodiscard]] std::vector<std::remove_const_t<T>> read(std::span<T> device)
+    {
+        std::vector<std::remove_const_t<T>> host(device.size());
+        if (!host.empty()) memory.read(host.data(), device.data(), device.size_bytes());
+        return host;
+    }
 
     Stream stream;
     DeviceMemory memory{stream.get()};
@@ -118,20 +126,29 @@ std::array<float, 5> DeviceLbvh::time_stages()
     return milliseconds;
 }
 
+BuiltTree DeviceLbvh::download_clustered()
+{
+    return std::visit(
+        [&](auto& tree) {
+            Hploc clustered(parts_->memory, tree.primitive_count());
+            clustered.build(parts_->executor, parts_->current(), tree);
+            return BuiltTree{parts_->read(clustered.nodes()),
+                             parts_->read(clustered.leaf_links()),
+                             parts_->read(tree.primitives()),
+                             {}};
+        },
+        parts_->tree);
+}
+
 BuiltTree DeviceLbvh::download() const
 {
-    const auto read = [&](auto device) {
-        std::vector<std::remove_const_t<typename decltype(device)::element_type>> host(device.size());
-        if (!host.empty()) parts_->memory.read(host.data(), device.data(), device.size_bytes());
-        return host;
-    };
     return std::visit(
         [&](const auto& tree) {
-            throw_if_rejected(tree.first_rejected(), read(parts_->current()));
-            const auto codes = read(tree.codes());
-            return BuiltTree{read(tree.nodes()),
-                             read(tree.leaf_links()),
-                             read(tree.primitives()),
+            throw_if_rejected(tree.first_rejected(), parts_->read(parts_->current()));
+            const auto codes = parts_->read(tree.codes());
+            return BuiltTree{parts_->read(tree.nodes()),
+                             parts_->read(tree.leaf_links()),
+                             parts_->read(tree.primitives()),
                              {codes.begin(), codes.end()}};
         },
         parts_->tree);

@@ -43,6 +43,10 @@ public:
     /// stream.
     std::array<float, 5> time_stages();
 
+    /// Builds the better tree of hploc.h over the leaves of the last build, and copies it. It has no
+    /// codes.
+    [[nodiscard]] BuiltTree download_clustered();
+
     /// Waits for the build, and copies the tree. Throws std::invalid_argument that names the first box
     /// that is none.
     [[nodiscard]] BuiltTree download() const;

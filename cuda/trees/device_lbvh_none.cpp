@@ -31,6 +31,11 @@ BuiltTree DeviceLbvh::download() const
     return {};
 }
 
+BuiltTree DeviceLbvh::download_clustered()
+{
+    return {};
+}
+
 std::vector<Hit> DeviceLbvh::closest_hits(std::span<const Triangle> /*triangles*/,
                                           std::span<const Ray> /*rays*/)
 {

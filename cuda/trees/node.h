@@ -15,6 +15,9 @@ constexpr std::uint32_t no_node = 0xffff'ffff;
 /// More primitives than this could overflow the search for a range (radix_tree.h).
 constexpr std::uint32_t most_primitives = 1u << 29;
 
+/// A radix tree is no deeper than this: code bits and the bits of an index, 63 + 29.
+constexpr int deepest_tree = 92;
+
 /// Names a node from above: an inner node by its number, a leaf by its number and the highest bit.
 constexpr std::uint32_t leaf_bit = 0x8000'0000;
 

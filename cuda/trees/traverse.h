@@ -15,7 +15,8 @@
 
 namespace gpu {
 
-/// What rays need of a tree. Triangles are in the order of leaves: a leaf's number is its triangle's.
+/// What rays need of a tree, which may be `deepest_tree` deep. Triangles are in the order of leaves: a
+/// leaf's number is its triangle's.
 struct TreeView {
     std::span<const Node> nodes;
     std::span<const std::uint32_t> primitives; // by leaf: which primitive its triangle is
@@ -36,9 +37,6 @@ struct OrderTriangles {
 
     HD void operator()(std::uint32_t leaf) const { ordered[leaf] = triangles[primitives[leaf]]; }
 };
-
-/// Deeper than any tree: code bits and the bits of an index (radix_tree.h), 63 + 29.
-constexpr int deepest_tree = 92;
 
 /// Nodes and leaves that a ray has yet to visit, and where it would enter them.
 class Waiting {

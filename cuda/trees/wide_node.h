@@ -4,6 +4,7 @@
 // one instruction where the processor has one for four floats [Wald, Benthin, Boulos 2008].
 
 #include "cuda/parallel/lanes.h"
+#include "cuda/trees/half_area.h"
 #include "cuda/trees/node.h"
 
 #include <cstdint>
@@ -19,13 +20,6 @@ struct alignas(64) WideNode {
     std::uint32_t children[4]; // a leaf, or the wide node of that number
 };
 static_assert(sizeof(WideNode) == 128);
-
-/// Half the surface area.
-HD inline float half_area(const Box& box)
-{
-    const Vec3 d = box.upper - box.lower;
-    return d.x * d.y + d.y * d.z + d.z * d.x;
-}
 
 /// Kernel over inner nodes: makes of every node the wide node that begins there, by opening twice the
 /// child with the largest surface [Wald et al. 2008, sec. 3.1]. So each can be made without knowing

@@ -1,0 +1,224 @@
+#pragma once
+
+// A better tree over the same sorted keys: clusters of neighbours along the curve are merged pair by
+// pair, those that make the smallest box together first, while walking up the radix tree [Benthin et al.
+// 2024; Meister and Bittner 2018 for the merging].
+//
+// One launch, which asks the host nothing, and one thread per walk, as in the refit. A node of the radix
+// tree hands its clusters to its parent, at most `most_handed_on` of them. The second of two siblings to
+// arrive joins both lists and, if that is too many, merges.
+
+#include "cuda/parallel/atomic.h"
+#include "cuda/parallel/buffer.h"
+#include "cuda/parallel/executor.h"
+#include "cuda/trees/half_area.h"
+#include "cuda/trees/lbvh.h"
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace gpu {
+
+/// Half a warp in the paper.
+constexpr std::uint32_t most_handed_on = 16;
+/// How far along the list a cluster looks for its nearest neighbour, to both sides.
+constexpr std::uint32_t search_radius = 8;
+
+/// A subtree that has no parent yet. `slot` is the number of its first leaf; slots grow along every
+/// list. When two clusters merge, the new node is named after the slot of the second, and the first
+/// keeps its own: so names are unique, and do not depend on who is first.
+struct Cluster {
+    Box box;
+    std::uint32_t root; // as a child (node.h)
+    std::uint32_t slot;
+    std::uint32_t height; // edges from the root to the deepest leaf
+};
+
+/// Which node has no parent, and the height of the tree.
+struct Top {
+    std::uint32_t root;
+    std::uint32_t height;
+};
+
+/// A list of clusters: clusters[first] to clusters[first + count - 1].
+struct ClusterList {
+    std::uint32_t first;
+    std::uint32_t count;
+};
+
+/// Kernel over leaves: walks up the radix tree and makes the nodes of another one.
+struct MergeClusters {
+    std::span<const Box> boxes;
+    std::span<const std::uint32_t> primitives;
+    std::span<Node> radix; // of which the links are read and arrivals counted
+    std::span<const std::uint32_t> radix_leaf_links;
+    std::span<ClusterList> handed_on; // two per node: by the left child, by the right child
+    std::span<Cluster> clusters;      // one per leaf
+    std::span<Node> nodes;
+    std::span<std::uint32_t> leaf_links;
+    std::span<Top> top; // one
+
+    HD void operator()(std::uint32_t leaf) const
+    {
+        clusters[leaf] = {boxes[primitives[leaf]], leaf | leaf_bit, leaf, 0};
+        ClusterList list{leaf, 1};
+        std::uint32_t link = radix_leaf_links[leaf];
+        while (link != no_node) {
+            Node& at = radix[link >> 1];
+            handed_on[link] = list;
+            if (arrive(at.arrivals) == 0) return;
+            at.arrivals = 0;
+            list = joined(handed_on[link & ~1u], handed_on[link | 1]);
+            link = at.link;
+            const std::uint32_t most = link == no_node ? 1 : most_handed_on;
+            while (list.count > most) list.count = merge_nearest(list);
+        }
+        name_parent(clusters[list.first].root, no_node);
+        top[0] = {clusters[list.first].root, clusters[list.first].height};
+    }
+
+private:
+    /// The clusters of the right list brought next to those of the left, towards the front.
+    [[nodiscard]] HD ClusterList joined(const ClusterList& left, const ClusterList& right) const
+    {
+        for (std::uint32_t i = 0; i < right.count; ++i)
+            clusters[left.first + left.count + i] = clusters[right.first + i];
+        return {left.first, left.count + right.count};
+    }
+
+    /// Merges every two clusters that are each other's nearest neighbours; returns how many are left.
+    [[nodiscard]] HD std::uint32_t merge_nearest(const ClusterList& list) const
+    {
+        std::uint32_t nearest[2 * most_handed_on];
+        for (std::uint32_t i = 0; i < list.count; ++i) nearest[i] = nearest_of(list, i);
+        std::uint32_t kept = 0;
+        for (std::uint32_t i = 0; i < list.count; ++i) {
+            const std::uint32_t j = nearest[i];
+            const bool mutual = nearest[j] == i;
+            if (mutual && j < i) continue; // merged already
+            const Cluster cluster = clusters[list.first + i];
+            clusters[list.first + kept++] = mutual ? merged(cluster, clusters[list.first + j]) : cluster;
+        }
+        return kept;
+    }
+
+    /// The neighbour that makes the smallest box with cluster i. Of several the first pair in order of
+    /// both numbers: so the best pair of all is mutual, and every round merges something.
+    [[nodiscard]] HD std::uint32_t nearest_of(const ClusterList& list, std::uint32_t i) const
+    {
+        const std::uint32_t begin = i < search_radius ? 0 : i - search_radius;
+        const std::uint32_t end = i + search_radius < list.count ? i + search_radius + 1 : list.count;
+        const Box box = clusters[list.first + i].box;
+        std::uint32_t best = i == begin ? i + 1 : begin;
+        float smallest = area_of_both(box, clusters[list.first + best].box);
+        for (std::uint32_t j = best + 1; j < end; ++j) {
+            if (j == i) continue;
+            const float area = area_of_both(box, clusters[list.first + j].box);
+            if (area < smallest) {
+                smallest = area;
+                best = j;
+            }
+        }
+        return best;
+    }
+
+    /// Infinite where it would be no number (0 * infinity): so that any two areas can be compared.
+    [[nodiscard]] HD static float area_of_both(const Box& a, const Box& b)
+    {
+        const float area = half_area(unite(a, b));
+        return area == area ? area : std::numeric_limits<float>::infinity();
+    }
+
+    /// One cluster of two, under a new node.
+    [[nodiscard]] HD Cluster merged(const Cluster& left, const Cluster& right) const
+    {
+        const std::uint32_t name = right.slot - 1; // slot 0 is the first of every list that it is in
+        nodes[name].bounds[0] = left.box;
+        nodes[name].bounds[1] = right.box;
+        nodes[name].children[0] = left.root;
+        nodes[name].children[1] = right.root;
+        nodes[name].arrivals = 0;
+        name_parent(left.root, link_to(name, 0));
+        name_parent(right.root, link_to(name, 1));
+        const std::uint32_t higher = left.height < right.height ? right.height : left.height;
+        return {unite(left.box, right.box), name, left.slot, higher + 1};
+    }
+
+    HD void name_parent(std::uint32_t child, std::uint32_t link) const
+    {
+        (is_leaf(child) ? leaf_links[child & ~leaf_bit] : nodes[child].link) = link;
+    }
+};
+
+/// Kernel of one index: the root changes places with node 0.
+struct MoveRootToFront {
+    std::span<const Top> top;
+    std::span<Node> nodes;
+    std::span<std::uint32_t> leaf_links;
+
+    HD void operator()(std::uint32_t /*index*/) const
+    {
+        const std::uint32_t from = top[0].root;
+        if (is_leaf(from) || from == 0) return;
+        const Node moved = nodes[0];
+        nodes[0] = nodes[from];
+        nodes[from] = moved;
+        const std::uint32_t parent = moved.link >> 1 == from ? 0 : moved.link >> 1;
+        nodes[parent].children[moved.link & 1] = from;
+        nodes[from].link = link_to(parent, moved.link & 1);
+        for (const std::uint32_t node : {std::uint32_t{0}, from})
+            for (std::uint32_t side = 0; side < 2; ++side) {
+                const std::uint32_t child = nodes[node].children[side];
+                (is_leaf(child) ? leaf_links[child & ~leaf_bit] : nodes[child].link) =
+                    link_to(node, side);
+            }
+    }
+};
+
+/// The tree, and the memory that it takes to make it out of a radix tree; reused.
+class Hploc {
+public:
+    /// For up to `capacity` primitives. Throws OutOfMemory.
+    Hploc(Memory& memory, std::uint32_t capacity)
+        : nodes_(memory, capacity), leaf_links_(memory, capacity),
+          handed_on_(memory, 2 * std::size_t{capacity}), clusters_(memory, capacity), top_(memory, 1)
+    {}
+    /// Queues the build, of the primitives that `sorted` was built over last, in the order of its
+    /// leaves. What is legal input is said there.
+    template <Executor E, class Code>
+    void build(E& executor, std::span<const Box> boxes, Lbvh<Code>& sorted)
+    {
+        count_ = sorted.primitive_count();
+        if (count_ == 0) return;
+        const std::span<Node> nodes = nodes_.first(count_ - 1);
+        const std::span<std::uint32_t> leaf_links = leaf_links_.first(count_);
+        executor(count_, MergeClusters{boxes, sorted.primitives(), sorted.nodes(), sorted.leaf_links(),
+                                       handed_on_.first(2 * std::size_t{count_}),
+                                       clusters_.first(count_), nodes, leaf_links, top_.all()});
+        executor(1, MoveRootToFront{top_.all(), nodes, leaf_links});
+    }
+
+    /// As node.h says, but for the order of leaves: they keep the numbers that they have in the radix
+    /// tree, and a node does not cover a range of them.
+    [[nodiscard]] std::span<const Node> nodes() const
+    {
+        return nodes_.first(count_ == 0 ? 0 : count_ - 1);
+    }
+    [[nodiscard]] std::span<const std::uint32_t> leaf_links() const { return leaf_links_.first(count_); }
+
+    /// Waits for the build. Edges from the root to the deepest leaf: no bound is known, and a tree
+    /// higher than `deepest_tree` does not suit traverse.h. (Boxes inside boxes inside boxes make such;
+    /// the radix tree does not mind.)
+    [[nodiscard]] std::uint32_t height() const { return count_ == 0 ? 0 : top_.read(1)[0].height; }
+
+private:
+    std::uint32_t count_ = 0;
+    Buffer<Node> nodes_;
+    Buffer<std::uint32_t> leaf_links_;
+    Buffer<ClusterList> handed_on_;
+    Buffer<Cluster> clusters_;
+    Buffer<Top> top_;
+};
+
+} // namespace gpu
