@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <limits>
+#include <string>
 
 namespace bench {
 
@@ -11,7 +12,9 @@ namespace {
 /// A device, and a scene with one triangle mesh, not yet built.
 class Embree {
 public:
-    explicit Embree(const scenes::Scene& scene) : device_(rtcNewDevice("threads=1,set_affinity=0"))
+    Embree(const scenes::Scene& scene, EmbreeOptions options)
+        : device_(rtcNewDevice(("set_affinity=0,threads=" + std::to_string(options.threads)).c_str())),
+          quality_(options.medium ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW)
     {
         for (const scenes::Triangle& triangle : scene.triangles)
             for (const ref::Vec3& vertex : triangle.vertices) {
@@ -33,9 +36,9 @@ public:
     {
         clear();
         scene_ = rtcNewScene(device_);
-        rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
+        rtcSetSceneBuildQuality(scene_, quality_);
         RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        rtcSetGeometryBuildQuality(mesh, RTC_BUILD_QUALITY_LOW);
+        rtcSetGeometryBuildQuality(mesh, quality_);
         rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices_.data(),
                                    0, 3 * sizeof(float), 3 * triangles_);
         rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices_.data(), 0,
@@ -74,6 +77,7 @@ private:
         scene_ = nullptr;
     }
     RTCDevice device_;
+    RTCBuildQuality quality_;
     RTCScene scene_ = nullptr;
     std::vector<float> vertices_;
     std::vector<unsigned> indices_;
@@ -82,9 +86,9 @@ private:
 
 } // namespace
 
-void embree_build(benchmark::State& state, const scenes::Scene& scene)
+void embree_build(benchmark::State& state, const scenes::Scene& scene, EmbreeOptions options)
 {
-    Embree embree(scene);
+    Embree embree(scene, options);
     for (auto _ : state) {
         state.PauseTiming();
         embree.prepare();
@@ -94,9 +98,10 @@ void embree_build(benchmark::State& state, const scenes::Scene& scene)
     state.counters["primitives"] = static_cast<double>(scene.triangles.size());
 }
 
-void embree_trace(benchmark::State& state, const scenes::Scene& scene, const std::vector<ref::Ray>& rays)
+void embree_trace(benchmark::State& state, const scenes::Scene& scene, const std::vector<ref::Ray>& rays,
+                  EmbreeOptions options)
 {
-    Embree embree(scene);
+    Embree embree(scene, options);
     embree.prepare();
     embree.build();
     for (auto _ : state)

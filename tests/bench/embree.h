@@ -1,6 +1,7 @@
 #pragma once
 
-// Embree as a yardstick, if it is there: its Morton builder (low quality), one thread, single precision.
+// Embree as a yardstick, if it is there: its Morton builder (low quality) or its binned SAH (medium),
+// single precision.
 
 #include "ref/trees/ray.h"
 
@@ -16,11 +17,16 @@ constexpr bool have_embree = true;
 constexpr bool have_embree = false;
 #endif
 
+struct EmbreeOptions {
+    bool medium = false; // quality
+    unsigned threads = 1;
+};
+
 /// Times the building of a tree over the scene's triangles; spheres are left out.
-void embree_build(benchmark::State& state, const scenes::Scene& scene);
+void embree_build(benchmark::State& state, const scenes::Scene& scene, EmbreeOptions options = {});
 
 /// Times the closest hits of `rays`.
-void embree_trace(benchmark::State& state, const scenes::Scene& scene,
-                  const std::vector<ref::Ray>& rays);
+void embree_trace(benchmark::State& state, const scenes::Scene& scene, const std::vector<ref::Ray>& rays,
+                  EmbreeOptions options = {});
 
 } // namespace bench

@@ -15,6 +15,7 @@
 #include "scenes/bounds.h"
 #include "scenes/read_scene.h"
 #include "tests/bench/build_steps.h"
+#include "tests/bench/bumpy_sphere.h"
 #include "tests/bench/embree.h"
 
 #include <benchmark/benchmark.h>
@@ -27,30 +28,6 @@ namespace {
 
 using ref::Builder;
 using ref::Vec3;
-
-/// About `triangles` triangles of a sphere with bumps, in random order: no builder profits from the
-/// file's.
-scenes::Scene bumpy_sphere(const std::string& name, double triangles)
-{
-    scenes::Scene scene;
-    scene.name = name;
-    scene.materials.emplace_back(scenes::Lambertian{scenes::Rgb(0.5)});
-    const int n = static_cast<int>(std::sqrt(triangles / 2));
-    const auto point = [&](int i, int j) {
-        const double theta = ref::pi * i / n;
-        const double phi = 2 * ref::pi * j / n;
-        const double r = 1 + 0.1 * std::sin(9 * theta) * std::cos(7 * phi);
-        return r *
-               Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
-    };
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-            scene.triangles.push_back({{point(i, j), point(i + 1, j), point(i + 1, j + 1)}, 0});
-            scene.triangles.push_back({{point(i, j), point(i + 1, j + 1), point(i, j + 1)}, 0});
-        }
-    std::shuffle(scene.triangles.begin(), scene.triangles.end(), std::mt19937(1));
-    return scene;
-}
 
 /// Rays from one point outside to points of the bounding box, and cosine-distributed ones from what they
 /// hit.
@@ -147,7 +124,8 @@ int main(int argc, char** argv)
         if (argc == 1)
             for (const auto& [name, triangles] :
                  {std::pair("sphere-1e5", 1e5), std::pair("sphere-1e6", 1e6)})
-                register_scene(std::make_shared<const scenes::Scene>(bumpy_sphere(name, triangles)));
+                register_scene(
+                    std::make_shared<const scenes::Scene>(bench::bumpy_sphere(name, triangles)));
         for (int i = 1; i < argc; ++i)
             register_scene(std::make_shared<const scenes::Scene>(scenes::read_scene(argv[i])));
     } catch (const std::exception& error) {

@@ -1,0 +1,202 @@
+// How long the fast path's trees take to build and to trace on the host, in single precision, beside
+// Embree.
+//
+//   bench_fast [--benchmark_...]
+//
+// Builds are from boxes in memory that is there already; "hploc" is morton63 and what comes on top. With
+// more than one thread the time that passes counts, else the CPU time. SAH costs: C_trav = C_isect = 1.
+
+#include "cuda/parallel/threaded_executor.h"
+#include "cuda/trees/hploc.h"
+#include "cuda/trees/scene_geometry.h"
+#include "cuda/trees/traverse.h"
+#include "tests/bench/bumpy_sphere.h"
+#include "tests/bench/embree.h"
+
+#include <benchmark/benchmark.h>
+
+#include <memory>
+
+namespace {
+
+using gpu::Vec3;
+
+/// What ref/trees/quality.h says of a tree with one primitive per leaf.
+double sah_cost(std::span<const gpu::Node> nodes)
+{
+    double sum = 0;
+    for (const gpu::Node& node : nodes) sum += half_area(node.bounds[0]) + half_area(node.bounds[1]);
+    return 1 + sum / half_area(unite(nodes[0].bounds[0], nodes[0].bounds[1]));
+}
+
+template <class Code>
+void build(benchmark::State& state, const scenes::Scene& scene, unsigned threads, bool cluster)
+{
+    const std::vector<gpu::Box> boxes = gpu::boxes_of(scene);
+    const auto n = static_cast<std::uint32_t>(boxes.size());
+    gpu::HostMemory memory;
+    gpu::ThreadedExecutor executor(threads);
+    gpu::Lbvh<Code> tree(memory, executor, n);
+    gpu::Hploc clustered(memory, cluster ? n : 0);
+    for (auto _ : state) {
+        tree.build(executor, boxes);
+        if (cluster) clustered.build(executor, boxes, tree);
+    }
+    state.counters["sah_cost"] = sah_cost(cluster ? clustered.nodes() : std::as_const(tree).nodes());
+}
+
+/// Rays from outside to points of the bounding box, and in random directions from what they hit.
+struct Rays {
+    std::vector<gpu::Ray> camera;
+    std::vector<gpu::Ray> diffuse;
+};
+
+/// A scene with the trees of the fast path, ready for rays.
+class Traceable {
+public:
+    explicit Traceable(const scenes::Scene& scene)
+        : triangles_(gpu::triangles_of(scene)), count_(static_cast<std::uint32_t>(triangles_.size())),
+          tree_(memory_, gpu::SerialExecutor{}, count_), clustered_(memory_, count_), wide_(count_ - 1),
+          ordered_(count_)
+    {
+        gpu::SerialExecutor executor;
+        const std::vector<gpu::Box> boxes = gpu::boxes_of(scene);
+        tree_.build(executor, boxes);
+        clustered_.build(executor, boxes, tree_);
+        executor(count_, gpu::OrderTriangles{triangles_, tree_.primitives(), ordered_});
+    }
+    [[nodiscard]] gpu::TreeView narrow(bool clustered) const
+    {
+        return {clustered ? clustered_.nodes() : tree_.nodes(), tree_.primitives(), ordered_};
+    }
+    [[nodiscard]] gpu::WideTreeView wide(bool clustered)
+    {
+        gpu::SerialExecutor{}(count_ - 1, gpu::WidenNodes{narrow(clustered).nodes, wide_});
+        return {wide_, tree_.primitives(), ordered_};
+    }
+    [[nodiscard]] Vec3 normal(std::uint32_t triangle) const
+    {
+        const auto& v = triangles_[triangle].vertices;
+        return glm::normalize(glm::cross(v[1] - v[0], v[2] - v[0]));
+    }
+
+private:
+    gpu::HostMemory memory_;
+    std::vector<gpu::Triangle> triangles_;
+    std::uint32_t count_;
+    gpu::Lbvh<std::uint64_t> tree_;
+    gpu::Hploc clustered_;
+    std::vector<gpu::WideNode> wide_;
+    std::vector<gpu::Triangle> ordered_;
+};
+
+Rays make_rays(Traceable& scene)
+{
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    const auto in_cube = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
+    const gpu::WideTreeView tree = scene.wide(true);
+    Rays rays;
+    for (int i = 0; i < 100000; ++i) {
+        const Vec3 eye(2.9f, 3.6f, 3.8f);
+        rays.camera.push_back({eye, infinity, 1.1f * in_cube() - eye});
+        const gpu::Ray& ray = rays.camera.back();
+        const gpu::Hit hit = closest_hit(tree, ray);
+        if (hit.primitive == gpu::no_primitive) continue;
+        Vec3 normal = scene.normal(hit.primitive);
+        if (glm::dot(normal, ray.direction) > 0) normal = -normal;
+        Vec3 in_ball = in_cube();
+        while (glm::dot(in_ball, in_ball) > 1) in_ball = in_cube();
+        // The normal and a point of the unit sphere: cosine-distributed.
+        rays.diffuse.push_back({ray.origin + hit.t * ray.direction + 1e-4f * normal, infinity,
+                                normal + glm::normalize(in_ball)});
+    }
+    return rays;
+}
+
+template <class View>
+void trace(benchmark::State& state, const View& tree, const std::vector<gpu::Ray>& rays)
+{
+    std::vector<gpu::Hit> hits(rays.size());
+    gpu::SerialExecutor executor;
+    for (auto _ : state)
+        executor(static_cast<std::uint32_t>(rays.size()), gpu::FindClosestHits<View>{tree, rays, hits});
+    const auto traced = static_cast<double>(state.iterations()) * static_cast<double>(rays.size());
+    state.counters["rays"] = benchmark::Counter(traced, benchmark::Counter::kIsRate);
+}
+
+std::vector<ref::Ray> in_double(const std::vector<gpu::Ray>& rays)
+{
+    std::vector<ref::Ray> result;
+    for (const gpu::Ray& ray : rays) result.push_back({ref::Vec3(ray.origin), ref::Vec3(ray.direction)});
+    return result;
+}
+
+template <class Function>
+void add(const std::string& name, unsigned threads, Function function)
+{
+    auto* const entry = benchmark::RegisterBenchmark(name.c_str(), function);
+    entry->Unit(benchmark::kMillisecond);
+    if (threads > 1) entry->UseRealTime();
+}
+
+void add_builds(const std::shared_ptr<const scenes::Scene>& scene)
+{
+    for (const unsigned threads : {1u, 2u}) {
+        const auto name = [&](const char* who) {
+            return "build/" + scene->name + "/" + who + "/" + std::to_string(threads);
+        };
+        using benchmark::State;
+        add(name("morton30"), threads,
+            [=](State& state) { build<std::uint32_t>(state, *scene, threads, false); });
+        add(name("morton63"), threads,
+            [=](State& state) { build<std::uint64_t>(state, *scene, threads, false); });
+        add(name("hploc"), threads,
+            [=](State& state) { build<std::uint64_t>(state, *scene, threads, true); });
+        if constexpr (bench::have_embree)
+            for (const bool medium : {false, true})
+                add(name(medium ? "embree-medium" : "embree-low"), threads, [=](State& state) {
+                    bench::embree_build(state, *scene, {medium, threads});
+                });
+    }
+}
+
+void add_traces(const std::shared_ptr<const scenes::Scene>& scene)
+{
+    const auto trees = std::make_shared<Traceable>(*scene);
+    const Rays made = make_rays(*trees);
+    for (const auto& [kind, rays] :
+         {std::pair("camera", made.camera), std::pair("diffuse", made.diffuse)}) {
+        const std::string name = std::string(kind) + "/" + scene->name + "/";
+        using benchmark::State;
+        for (const bool clustered : {false, true}) {
+            const std::string who = clustered ? "hploc" : "morton63";
+            add(name + who, 1,
+                [=, rays = rays](State& state) { trace(state, trees->narrow(clustered), rays); });
+            add(name + who + "-wide", 1,
+                [=, rays = rays](State& state) { trace(state, trees->wide(clustered), rays); });
+        }
+        if constexpr (bench::have_embree)
+            for (const bool medium : {false, true})
+                add(name + (medium ? "embree-medium" : "embree-low"), 1,
+                    [=, rays = in_double(rays)](State& state) {
+                        bench::embree_trace(state, *scene, rays, {medium, 1});
+                    });
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    benchmark::Initialize(&argc, argv);
+    for (const auto& [name, triangles] :
+         {std::pair("sphere-1e5", 1e5), std::pair("sphere-1e6", 1e6), std::pair("sphere-4e6", 4e6)}) {
+        const auto scene = std::make_shared<const scenes::Scene>(bench::bumpy_sphere(name, triangles));
+        add_builds(scene);
+        if (triangles < 4e6) add_traces(scene);
+    }
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
