@@ -26,6 +26,11 @@ void paste(Image& sheet, const Image& cell, int x0, int y0, double brightness)
                             static_cast<std::size_t>(x)];
 }
 
+std::string label_of(int s, int t)
+{
+    return "s = " + std::to_string(s) + ", t = " + std::to_string(t);
+}
+
 } // namespace
 
 Image strategy_sheet(const Strategies& strategies)
@@ -40,7 +45,8 @@ Image strategy_sheet(const Strategies& strategies)
             throw std::invalid_argument("the pictures of the strategies differ in size");
     }
 
-    const int column = first.width + gap;
+    const int label_width = text_width(label_of(longest, longest + 1));
+    const int column = std::max(first.width, label_width) + gap;
     const int row = first.height + label_height + gap;
     Image sheet(margin + (longest + 1) * column, gap + longest * row);
     std::fill(sheet.pixels.begin(), sheet.pixels.end(), Rgb(0.05));
@@ -57,8 +63,7 @@ Image strategy_sheet(const Strategies& strategies)
             const int t = k + 1 - s;
             const int x = left + s * column;
             const auto found = strategies.find({s, t});
-            draw_text(sheet, x, y + 2, "s = " + std::to_string(s) + ", t = " + std::to_string(t),
-                      found != strategies.end() ? Rgb(0.8) : Rgb(0.2));
+            draw_text(sheet, x, y + 2, label_of(s, t), found != strategies.end() ? Rgb(0.8) : Rgb(0.2));
             paste(sheet, found != strategies.end() ? found->second : black, x, y + label_height,
                   std::exp2(stops));
         }
