@@ -3,7 +3,9 @@
 #include "cuda/device.h"
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/device_lbvh.h"
+#include "cuda/trees/hploc.h"
 #include "cuda/trees/lbvh.h"
+#include "cuda/trees/sah_cost.h"
 #include "cuda/trees/scene_geometry.h"
 #include "cuda/trees/traffic.h"
 
@@ -17,6 +19,7 @@
 #include <cstring>
 #include <iomanip>
 #include <iostream>
+#include <utility>
 
 namespace cli {
 
@@ -60,24 +63,38 @@ std::size_t host_cache()
     return bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
 }
 
+/// The times of all builds, and what the trees are worth.
+struct Timed {
+    std::vector<Milliseconds> stages;
+    double sah_cost = 0;
+    std::vector<double> clustering; // what hploc.h takes on top
+    double clustered_sah_cost = 0;
+};
+
 template <class Code>
-std::vector<Milliseconds> time_on_host(gpu::ThreadedExecutor& executor,
-                                       const std::vector<gpu::Box>& boxes, int repeats)
+Timed time_on_host(gpu::ThreadedExecutor& executor, const std::vector<gpu::Box>& boxes, int repeats)
 {
     gpu::HostMemory memory;
     gpu::Lbvh<Code> tree(memory, executor, static_cast<std::uint32_t>(boxes.size()));
     tree.build(executor, boxes); // touches all memory once
     gpu::throw_if_rejected(tree.first_rejected(), boxes);
-    std::vector<Milliseconds> times(static_cast<std::size_t>(repeats));
-    for (Milliseconds& stages : times) {
+    gpu::Hploc clustered(memory, static_cast<std::uint32_t>(boxes.size()));
+    clustered.build(executor, boxes, tree);
+    Timed timed{std::vector<Milliseconds>(static_cast<std::size_t>(repeats)),
+                gpu::sah_cost(std::as_const(tree).nodes()),
+                {},
+                gpu::sah_cost(clustered.nodes())};
+    for (Milliseconds& stages : timed.stages) {
         auto start = Clock::now();
         tree.build(executor, boxes, [&](gpu::Stage stage) {
             const auto end = Clock::now();
             stages[static_cast<std::size_t>(stage)] = ms_between(start, end);
             start = end;
         });
+        clustered.build(executor, boxes, tree);
+        timed.clustering.push_back(ms_between(start, Clock::now()));
     }
-    return times;
+    return timed;
 }
 
 std::vector<Milliseconds> time_on_device(const std::vector<gpu::Box>& boxes, int code_bits, int repeats)
@@ -150,10 +167,13 @@ nlohmann::json measure_stages(const scenes::Scene& scene, const std::string& dev
         report["described"] = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
         report["bytes_per_second"] = bandwidth;
         for (const int bits : {30, 63}) {
-            const auto times = bits == 30 ? time_on_host<std::uint32_t>(executor, boxes, repeats)
-                                          : time_on_host<std::uint64_t>(executor, boxes, repeats);
+            const Timed timed = bits == 30 ? time_on_host<std::uint32_t>(executor, boxes, repeats)
+                                           : time_on_host<std::uint64_t>(executor, boxes, repeats);
             builders.push_back(
-                report_of(times, n, bits, gpu::passes_on_host(bits), bandwidth, host_cache()));
+                report_of(timed.stages, n, bits, gpu::passes_on_host(bits), bandwidth, host_cache()));
+            builders.back()["sah_cost"] = timed.sah_cost;
+            builders.back()["hploc_ms"] = median(timed.clustering);
+            builders.back()["hploc_sah_cost"] = timed.clustered_sah_cost;
         }
     }
     report["plausible"] = std::ranges::all_of(
@@ -184,6 +204,10 @@ void print_stages(const nlohmann::json& report)
                   << std::right << std::setprecision(3) << std::setw(9) << builder["ms"].get<double>()
                   << ", " << std::setprecision(0) << builder["bytes_per_primitive"].get<double>()
                   << " bytes per primitive\n";
+        if (!builder.contains("sah_cost")) continue;
+        std::cout << std::setprecision(2) << "          SAH cost " << builder["sah_cost"].get<double>()
+                  << "; clustered (hploc) in " << builder["hploc_ms"].get<double>() << " ms more "
+                  << builder["hploc_sah_cost"].get<double>() << '\n';
     }
     if (!report["plausible"].get<bool>())
         std::cout << "A stage claims to move more than the memory can: some figure is wrong.\n";

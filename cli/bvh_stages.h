@@ -15,6 +15,7 @@ namespace cli {
 /// (cuda/trees/traffic.h), and what share of the memory's bandwidth that is. "plausible" is false if a
 /// stage claims to have moved more than the memory can, while its data were too large for the caches:
 /// then some figure is wrong.
+/// On the host also the SAH cost of the tree and of the one clustered from it (cuda/trees/hploc.h).
 ///
 /// Throws std::runtime_error if there is no GPU, and std::invalid_argument for a primitive that is none.
 nlohmann::json measure_stages(const scenes::Scene& scene, const std::string& device, unsigned threads,

@@ -6,7 +6,14 @@
 
 #include "cuda/parallel/host_device.h"
 
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
 namespace gpu {
+
+/// Sorts behind all other keys.
+constexpr std::uint32_t not_ordered = 0xffff'ffff;
 
 #if defined(__CUDACC__)
 
@@ -53,6 +60,16 @@ HD inline Lanes smaller(const Lanes& a, const Lanes& b)
     return result;
 }
 
+/// See below.
+HD inline void sortable(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[4])
+{
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const bool ordered = near[static_cast<int>(i)] <= far[static_cast<int>(i)];
+        keys[i] =
+            ordered ? (std::bit_cast<std::uint32_t>(near[static_cast<int>(i)]) & ~3u) | i : not_ordered;
+    }
+}
+
 #else
 
 using Lanes = float __attribute__((vector_size(16)));
@@ -72,6 +89,17 @@ inline Lanes larger(const Lanes& a, const Lanes& b)
 inline Lanes smaller(const Lanes& a, const Lanes& b)
 {
     return a < b ? a : b;
+}
+
+/// For every lane a number that sorts like `near` (which must not be negative: then its bits sort like
+/// itself), with the number of the lane in its lowest two bits; not_ordered, unless near <= far. Without
+/// those two bits it is the bits of `near`, or of a float up to 3 ulps below it.
+inline void sortable(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[4])
+{
+    using Words = std::uint32_t __attribute__((vector_size(16)));
+    const Words named = (std::bit_cast<Words>(near) & ~3u) | Words{0, 1, 2, 3};
+    const Words sorted = near <= far ? named : Words{not_ordered, not_ordered, not_ordered, not_ordered};
+    std::memcpy(keys, &sorted, sizeof keys);
 }
 
 #endif

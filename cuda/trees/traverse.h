@@ -101,9 +101,6 @@ HD void traverse(const TreeView& tree, const Ray& ray, const Test& test)
     } while (waiting.pop(limit, next));
 }
 
-/// More than the bits of any float that is not negative.
-constexpr std::uint32_t not_entered = 0xffff'ffff;
-
 /// In five steps, whatever they are.
 HD inline void sort_four(std::uint32_t (&keys)[4])
 {
@@ -132,28 +129,28 @@ HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test)
     float limit = ray.t_max;
     Waiting waiting;
     std::uint32_t next = 0;
-    do {
+    for (;;) {
         if (is_leaf(next)) {
             limit = test(next & ~leaf_bit);
+            if (!waiting.pop(limit, next)) return;
             continue;
         }
         const WideNode& node = tree.nodes[next];
         Lanes near;
         Lanes far;
         slabs.entries(node, limit, near, far);
-        // Floats that are not negative sort like their bits. The lowest two bits make room for the
-        // number of the child: so an entry is rounded down by at most 3 ulps, which can only cost a
-        // visit. No branch depends on which boxes are entered.
         std::uint32_t keys[4];
-        for (int lane = 0; lane < 4; ++lane)
-            keys[lane] = near[lane] <= far[lane] ? (std::bit_cast<std::uint32_t>(near[lane]) & ~3u) |
-                                                       static_cast<unsigned>(lane)
-                                                 : not_entered;
+        sortable(near, far, keys);
         sort_four(keys);
-        for (int i = 3; i >= 0; --i)
-            waiting.push_if(keys[i] != not_entered, node.children[keys[i] & 3],
+        for (int i = 3; i >= 1; --i)
+            waiting.push_if(keys[i] != not_ordered, node.children[keys[i] & 3],
                             std::bit_cast<float>(keys[i] & ~3u));
-    } while (waiting.pop(limit, next));
+        if (keys[0] != not_ordered) {
+            next = node.children[keys[0] & 3];
+            continue;
+        }
+        if (!waiting.pop(limit, next)) return;
+    }
 }
 
 /// The hit of smallest t; of several at the same t, that of the lowest primitive number, so that the

@@ -8,6 +8,7 @@
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/hploc.h"
+#include "cuda/trees/sah_cost.h"
 #include "cuda/trees/scene_geometry.h"
 #include "cuda/trees/traverse.h"
 #include "tests/bench/bumpy_sphere.h"
@@ -20,14 +21,6 @@
 namespace {
 
 using gpu::Vec3;
-
-/// What ref/trees/quality.h says of a tree with one primitive per leaf.
-double sah_cost(std::span<const gpu::Node> nodes)
-{
-    double sum = 0;
-    for (const gpu::Node& node : nodes) sum += half_area(node.bounds[0]) + half_area(node.bounds[1]);
-    return 1 + sum / half_area(unite(nodes[0].bounds[0], nodes[0].bounds[1]));
-}
 
 template <class Code>
 void build(benchmark::State& state, const scenes::Scene& scene, unsigned threads, bool cluster)
@@ -42,7 +35,8 @@ void build(benchmark::State& state, const scenes::Scene& scene, unsigned threads
         tree.build(executor, boxes);
         if (cluster) clustered.build(executor, boxes, tree);
     }
-    state.counters["sah_cost"] = sah_cost(cluster ? clustered.nodes() : std::as_const(tree).nodes());
+    state.counters["sah_cost"] =
+        gpu::sah_cost(cluster ? clustered.nodes() : std::as_const(tree).nodes());
 }
 
 /// Rays from outside to points of the bounding box, and in random directions from what they hit.

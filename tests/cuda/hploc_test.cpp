@@ -4,6 +4,7 @@
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/device_lbvh.h"
+#include "cuda/trees/sah_cost.h"
 #include "ref/trees/bvh.h"
 #include "ref/trees/is_valid_tree.h"
 #include "ref/trees/quality.h"
@@ -176,6 +177,20 @@ TEST_F(HplocOnDevice, IsTheSame)
         tree.build(boxes);
         const gpu::BuiltTree built = tree.download_clustered();
         EXPECT_TRUE(same({built.nodes, built.leaf_links, {}, {}}, cluster(serial, boxes))) << n;
+    }
+}
+
+TEST(SahCost, IsTheReferences)
+{
+    Random random(6);
+    gpu::SerialExecutor serial;
+    for (const std::size_t n : {1u, 2u, 300u}) {
+        const auto boxes = cuda_test::rounded(test::boxes(Kind::uniform, n, random));
+        const Built built = cluster(serial, boxes);
+        // Sums and quotients of floats against those of doubles: two products, two sums, and one
+        // quotient.
+        const double expected = ref::quality(with_leaves_in_order(built, boxes)).sah_cost;
+        EXPECT_NEAR(gpu::sah_cost(built.nodes), expected, 16 * 0x1p-24 * expected) << n;
     }
 }
 
