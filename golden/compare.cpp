@@ -11,8 +11,6 @@ namespace golden {
 
 namespace {
 
-constexpr std::size_t channels = 3;
-
 Comparison first_stage(const Golden& golden, const Candidate& candidate, Method method,
                        const CompareOptions& options)
 {
@@ -29,7 +27,7 @@ Comparison first_stage(const Golden& golden, const Candidate& candidate, Method 
     comparison.method = method;
     comparison.golden_batches = golden.reference.size();
     const Judge judge(golden, method, options);
-    for (std::size_t c = 0; c < channels; ++c)
+    for (std::size_t c = 0; c < channel_count; ++c)
         for (std::size_t f = 0; f < golden.functionals.size(); ++f)
             if (judge.looks_at(f)) comparison.findings.push_back(judge.judge(candidate.rows(), f, c));
     summarise(comparison);
@@ -110,20 +108,13 @@ Comparison compare(const Golden& golden, const Candidate& candidate, Method meth
 std::array<double, 3> detectable_error(const Golden& golden, std::uint64_t batches,
                                        const CompareOptions& options)
 {
-    const Functionals& functionals = golden.functionals;
-    const double level = options.accuse / Multiplicity(functionals, Method::ranks).of(RegionKind::whole);
+    const Judge judge(golden, Method::ranks, options);
     std::array<double, 3> detectable{};
     detectable.fill(std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t channel = 0; channel < channels; ++channel)
-        for (std::size_t f = 0; f < weights.size(); ++f) { // those of region 0, the whole picture
-            if (!is_linear(functionals.at(f).weight)) continue;
-            std::vector<double> values = values_of(golden.reference, functionals, f, channel);
-            std::sort(values.begin(), values.end());
-            if (moments(values).mean > 0.0)
-                detectable[channel] =
-                    std::fmin(detectable[channel], detectable_scale(values, static_cast<double>(batches),
-                                                                    level, options.power));
-        }
+    for (std::size_t channel = 0; channel < channel_count; ++channel)
+        for (std::size_t f = 0; f < weights.size(); ++f) // those of region 0, the whole picture
+            detectable[channel] = std::fmin(detectable[channel],
+                                            judge.detectable(f, channel, static_cast<double>(batches)));
     return detectable;
 }
 

@@ -60,7 +60,8 @@ struct Comparison {
     /// Smallest detectable relative error of the whole picture, per channel, at the first stage; NaN for
     /// a channel in which the golden is black.
     std::array<double, 3> detectable{};
-    /// The finding of the stratum in which the smallest detectable error is largest.
+    /// The stratum in which the smallest detectable error is largest: the finding that would show it, if
+    /// any would.
     std::optional<std::size_t> blindest_stratum;
     double false_alarm = 0.0; // at most this chance has a right picture to FAIL
     double coverage = 1.0;    // share of the findings that are conclusive

@@ -9,9 +9,7 @@ namespace golden {
 
 namespace {
 
-constexpr std::size_t channels = 3;
-constexpr std::array<const char*, channels> channel_names = {"red", "green", "blue"};
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
 
@@ -43,12 +41,12 @@ Multiplicity::Multiplicity(const Functionals& functionals, Method method)
 double Multiplicity::of(RegionKind kind) const
 {
     const double families = static_cast<double>(members_.size()) * weights_;
-    return static_cast<double>(channels) * families * members_.at(kind);
+    return static_cast<double>(channel_count) * families * members_.at(kind);
 }
 
 double Multiplicity::tests_of(RegionKind kind) const
 {
-    return static_cast<double>(channels) * weights_ * members_.at(kind);
+    return static_cast<double>(channel_count) * weights_ * members_.at(kind);
 }
 
 std::vector<RegionKind> Multiplicity::kinds() const
@@ -79,7 +77,7 @@ Finding Judge::judge(const std::vector<Row>& rows, std::size_t functional, std::
         std::sort(ours.begin(), ours.end());
         std::sort(theirs.begin(), theirs.end());
         finding.test = mann_whitney_beyond(ours, theirs, options_.rounding * std::abs(reference.mean));
-        finding.detectable = detectable_by_ranks(finding, theirs, candidate.count, reference.mean);
+        finding.detectable = detectable_by_ranks(finding, theirs, candidate.count);
     } else {
         compare_means(finding, mean_estimate(candidate), reference,
                       std::abs(candidate.skewness) / std::sqrt(candidate.count));
@@ -104,29 +102,30 @@ Finding Judge::judge(const MeanEstimate& candidate, double skewed, std::size_t f
 Finding Judge::blank(std::size_t functional, std::size_t channel) const
 {
     const Functional f = functionals_.at(functional);
-    return {functionals_.regions()[f.region],
-            f.weight,
-            functional,
-            channel,
-            true,
-            {},
-            1.0,
-            nan,
-            {nan, nan},
-            nan};
+    return {
+        functionals_.regions()[f.region], f.weight,   functional, channel, true, {}, 1.0, not_defined,
+        {not_defined, not_defined},       not_defined};
+}
+
+double Judge::detectable(std::size_t functional, std::size_t channel, double batches) const
+{
+    std::vector<double> values = values_of(golden_.reference, functionals_, functional, channel);
+    std::sort(values.begin(), values.end());
+    return detectable_by_ranks(blank(functional, channel), values, batches);
 }
 
 double Judge::detectable_by_ranks(const Finding& finding, const std::vector<double>& reference,
-                                  double count, double mean) const
+                                  double count) const
 {
     const double level = level_of(finding);
     if (is_linear(finding.weight))
-        return mean > 0.0 ? detectable_scale(reference, count, level, options_.power) : nan;
+        return moments(reference).mean > 0.0 ? detectable_scale(reference, count, level, options_.power)
+                                             : not_defined;
     const std::size_t at = finding.channel * functionals_.size() + finding.functional;
     const double slope = static_cast<double>(golden_.slopes[at]) *
                          functionals_.spread(finding.functional, finding.channel);
     // To first order in an error that is small.
-    return slope > 0.0 ? detectable_shift(reference, count, level, options_.power) / slope : nan;
+    return slope > 0.0 ? detectable_shift(reference, count, level, options_.power) / slope : not_defined;
 }
 
 double Judge::level_of(const Finding& finding) const

@@ -24,8 +24,8 @@ enum class Method {
 std::string describe(Method method);
 
 struct CompareOptions {
-    double accuse = 0.01;         // chance that a right picture's first stage finds something to confirm
-    double confirm = 1e-5;        // level of each later stage, at which one suspicion alone is tested
+    double accuse = 0.05;         // chance that a right picture's first stage finds something to confirm
+    double confirm = 1e-7;        // level of each later stage, at which one suspicion alone is tested
     double convict = 1e-8;        // level at which one stage is enough for FAIL
     double specification = 0.005; // relative error of the whole picture that must be detectable to pass
     double power = 0.99;          // with this probability
@@ -76,6 +76,10 @@ public:
     /// do two estimators of one picture have the same.
     [[nodiscard]] bool looks_at(std::size_t functional) const;
 
+    /// The smallest relative error that so many batches of the golden's own kind would show in this
+    /// functional, with the stated power; NaN where that is not defined. For Method::ranks.
+    [[nodiscard]] double detectable(std::size_t functional, std::size_t channel, double batches) const;
+
     /// Judges batches. For Method::welch there must be two at least, of candidate and golden.
     [[nodiscard]] Finding judge(const std::vector<Row>& rows, std::size_t functional,
                                 std::size_t channel) const;
@@ -87,8 +91,7 @@ public:
 private:
     [[nodiscard]] Finding blank(std::size_t functional, std::size_t channel) const;
     [[nodiscard]] double detectable_by_ranks(const Finding& finding,
-                                             const std::vector<double>& reference, double count,
-                                             double mean) const;
+                                             const std::vector<double>& reference, double count) const;
     [[nodiscard]] double level_of(const Finding& finding) const;
     void compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
                        double skewed) const;

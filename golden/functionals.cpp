@@ -14,7 +14,6 @@ namespace golden {
 namespace {
 
 constexpr std::size_t strata = 16;
-constexpr std::size_t channels = 3;
 
 double luminance(const Rgb& color)
 {
@@ -214,7 +213,7 @@ void Functionals::weigh()
             // A mean so small that its square is 0 weighs nothing.
             if (!std::isfinite(matched_[i][c])) matched_[i][c] = 0.0;
         }
-    for (std::size_t channel = 0; channel < channels; ++channel) {
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
         const auto c = static_cast<int>(channel);
         const Sums means = sum_over_regions([&](std::size_t i) -> std::array<double, 3> {
             return {matched_[i][c] * mean[i][c], mean[i][c], 0.5};
@@ -283,8 +282,8 @@ Row Functionals::evaluate(const Image& batch) const
 {
     check(batch);
     Row row;
-    row.reserve(channels * size());
-    for (std::size_t channel = 0; channel < channels; ++channel) {
+    row.reserve(channel_count * size());
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
         const auto c = static_cast<int>(channel);
         const Sums sums = sum_over_regions([&](std::size_t i) -> std::array<double, 3> {
             const double value = batch.pixels[i][c];
@@ -304,7 +303,7 @@ Row Functionals::slopes(const Image& batch) const
 {
     check(batch);
     Row row;
-    for (std::size_t channel = 0; channel < channels; ++channel) {
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
         const auto c = static_cast<int>(channel);
         // The derivative of (1 + e) c / ((1 + e) c + m) by e at 0 is b (1 - b).
         const Sums sums = sum_over_regions([&](std::size_t i) -> std::array<double, 3> {

@@ -17,6 +17,9 @@
 
 namespace golden {
 
+inline constexpr std::size_t channel_count = 3;
+inline constexpr std::array<const char*, channel_count> channel_names = {"red", "green", "blue"};
+
 enum class RegionKind {
     whole,
     coarse_tile, // a square of a quarter of the longer side

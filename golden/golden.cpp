@@ -20,7 +20,6 @@ constexpr const char* pilot_noise_layer = "pilot.noise";
 constexpr const char* pilot_batches_key = "golden.pilot_batches";
 constexpr const char* reference_batches_key = "golden.reference_batches";
 constexpr const char* functionals_key = "golden.functionals";
-constexpr std::size_t channels = 3;
 
 /// As a file holds it. A call, so that it is done: g++ 12.2 at -O2 drops a pair of conversions
 /// double-float-double in vector registers.
@@ -52,7 +51,7 @@ void add_rows(Layers& layers, const std::vector<Row>& rows, const Functionals& f
     for (std::size_t at = 0; at < rows.size() * count; ++at) {
         Image& layer = layers[reference_layer(at / pixels)];
         if (layer.pixels.empty()) layer = Image(functionals.width(), functionals.height());
-        for (std::size_t c = 0; c < channels; ++c)
+        for (std::size_t c = 0; c < channel_count; ++c)
             layer.pixels[at % pixels][static_cast<int>(c)] =
                 static_cast<double>(rows[at / count][c * count + at % count]);
     }
@@ -69,12 +68,12 @@ std::vector<Row> read_rows(const fs::path& path, const Layers& layers, const Fun
     if (batches > layers.size() * pixels / count || !layers.contains(reference_layer(layers_needed - 1)))
         throw ImageError(path, "damaged golden: says it holds " + std::to_string(batches - 1) +
                                    " reference batches, and does not");
-    std::vector<Row> rows(batches, Row(channels * count));
+    std::vector<Row> rows(batches, Row(channel_count * count));
     for (std::size_t at = 0; at < batches * count; ++at) {
         const auto layer = layers.find(reference_layer(at / pixels));
         if (layer == layers.end())
             throw ImageError(path, "damaged golden: has no layer " + reference_layer(at / pixels));
-        for (std::size_t c = 0; c < channels; ++c) {
+        for (std::size_t c = 0; c < channel_count; ++c) {
             const double value = layer->second.pixels[at % pixels][static_cast<int>(c)];
             if (!std::isfinite(value))
                 throw ImageError(path, "damaged golden: a reference value is NaN or infinite");

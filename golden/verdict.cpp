@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -11,32 +12,34 @@ namespace golden {
 
 namespace {
 
-constexpr std::size_t channels = 3;
-constexpr std::array<const char*, channels> names_of_channels = {"red", "green", "blue"};
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-/// What can be seen in a region: the best of its weights.
-double detectable_in(const std::vector<Finding>& findings, std::size_t first)
+double detectable_by(const Finding& finding)
 {
-    double best = std::numeric_limits<double>::infinity();
-    bool defined = false;
+    return finding.conclusive ? finding.detectable : std::numeric_limits<double>::infinity();
+}
+
+/// The finding that shows the smallest error of the region and channel that findings[first] is the first
+/// of; none if no error is defined there. A finding that is not conclusive shows none.
+std::optional<std::size_t> sharpest_in(const std::vector<Finding>& findings, std::size_t first)
+{
+    std::optional<std::size_t> best;
     for (std::size_t i = first; i < findings.size(); ++i) {
         const Finding& finding = findings[i];
         if (finding.channel != findings[first].channel ||
             finding.functional / weights.size() != findings[first].functional / weights.size())
             break;
         if (std::isnan(finding.detectable) && finding.conclusive) continue;
-        defined = true;
-        if (finding.conclusive) best = std::min(best, finding.detectable);
+        if (!best || detectable_by(finding) < detectable_by(findings[*best])) best = i;
     }
-    return defined ? best : undefined;
+    return best;
 }
 
 /// The channel in which least can be seen; none if the golden is black.
 std::optional<std::size_t> blindest_channel(const Comparison& comparison)
 {
     std::optional<std::size_t> blindest;
-    for (std::size_t c = 0; c < channels; ++c)
+    for (std::size_t c = 0; c < channel_count; ++c)
         if (!std::isnan(comparison.detectable[c]) &&
             (!blindest || comparison.detectable[c] > comparison.detectable[*blindest]))
             blindest = c;
@@ -63,7 +66,6 @@ void summarise(Comparison& comparison)
     const std::vector<Finding>& findings = comparison.findings;
     comparison.detectable.fill(undefined);
     double conclusive = 0.0;
-    double blindest = 0.0;
     for (std::size_t i = 0; i < findings.size(); ++i) {
         const Finding& finding = findings[i];
         if (finding.conclusive) {
@@ -76,15 +78,16 @@ void summarise(Comparison& comparison)
                 comparison.suspicion = i;
         }
         if (finding.weight != Weight::matched) continue;
-        const double detectable = detectable_in(findings, i);
+        const std::optional<std::size_t> sharpest = sharpest_in(findings, i);
+        if (!sharpest) continue; // black
+        const double detectable = detectable_by(findings[*sharpest]);
         if (finding.region.kind == RegionKind::whole)
             comparison.detectable[finding.channel] = detectable;
         const bool stratum =
             finding.region.kind == RegionKind::luminance || finding.region.kind == RegionKind::noise;
-        if (stratum && detectable > blindest) {
-            blindest = detectable;
-            comparison.blindest_stratum = i;
-        }
+        if (stratum && (!comparison.blindest_stratum ||
+                        detectable > detectable_by(findings[*comparison.blindest_stratum])))
+            comparison.blindest_stratum = sharpest;
     }
     comparison.coverage = findings.empty() ? 0.0 : conclusive / static_cast<double>(findings.size());
     if (comparison.suspicion) comparison.p = findings[*comparison.suspicion].adjusted_p;
@@ -122,7 +125,7 @@ void acquit(Comparison& comparison, const CompareOptions& options, const std::st
 {
     const auto channel = blindest_channel(comparison);
     const double detectable = channel ? comparison.detectable[*channel] : 0.0;
-    const std::string where = channel ? std::string(" in ") + names_of_channels[*channel] : "";
+    const std::string where = channel ? std::string(" in ") + channel_names[*channel] : "";
     if (detectable > options.specification) {
         comparison.verdict = Verdict::inconclusive;
         comparison.reason = "No difference found, but ";

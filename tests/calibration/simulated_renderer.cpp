@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t population_bits = 17;
 constexpr double chance_of_light_in_shadow = 0.5;
-constexpr double chance_of_light_in_caustic = 0.2;
+constexpr double chance_of_light_in_caustic = 0.1;
 
 double draw(Noise noise, std::mt19937_64& random)
 {

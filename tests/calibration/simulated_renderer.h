@@ -34,7 +34,7 @@ struct Bias {
 
 /// Draws batches of 4 samples per pixel of a picture with a gradient, a quarter in shadow, a caustic on
 /// 3% of the pixels and a black corner. In the shadow half of the samples find no light, in the caustic
-/// 80% (so their noise is larger), as happens to shadow rays and to paths that must hit a small lamp.
+/// 90% (so their noise is larger), as happens to shadow rays and to paths that must hit a small lamp.
 class SimulatedRenderer {
 public:
     SimulatedRenderer(int size, Noise noise);

@@ -1,0 +1,84 @@
+// The short version of `./run calibrate`: the rates that docs/comparison.md states, on fewer trials.
+
+#include "tests/calibration/experiments.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace {
+
+using namespace calibration;
+
+Plan small_plan(int size, int goldens, int trials)
+{
+    Plan plan;
+    plan.size = size;
+    plan.goldens = goldens;
+    plan.trials = trials;
+    plan.threads = std::min(2U, std::max(1U, std::thread::hardware_concurrency()));
+    return plan;
+}
+
+/// A seed is fixed, so the outcome is; the level says how surprising a failure is.
+class FalseAlarm : public ::testing::TestWithParam<Noise> {};
+
+TEST_P(FalseAlarm, IsAsRareAsTheLevelsSayWhateverTheTailOfTheNoise)
+{
+    const FalseAlarms result = measure_false_alarms(GetParam(), small_plan(32, 2, 6));
+    EXPECT_EQ(result.failed.hits, 0u);
+    // Suspected with a chance of 5% at most: 4 of 12 have one of 2e-3, and that is a bound.
+    EXPECT_LT(result.suspected.hits, 4u);
+    // Tests on one picture depend on each other, so that no binomial limit holds: three times the level.
+    EXPECT_LT(static_cast<double>(result.below_1e3.hits),
+              3e-3 * static_cast<double>(result.below_1e3.trials));
+    EXPECT_GT(result.below_1e3.trials, 10'000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Noises, FalseAlarm, ::testing::ValuesIn(noises), [](const auto& noise) {
+    std::string text = name(noise.param);
+    std::erase_if(text, [](char c) { return c == ' ' || c == '.'; });
+    return text;
+});
+
+// Each of these powers is 0.97 at least in the long version; of 8 trials 2 fail with a chance of 2%, and
+// 3 with one of 0.1%.
+TEST(Power, FindsAPercentEverywhere)
+{
+    const Verdicts v = measure_verdicts(golden::Method::ranks, Noise::lognormal, Noise::lognormal,
+                                        {.everywhere = 0.99}, small_plan(128, 1, 6));
+    EXPECT_EQ(v.fail, v.trials());
+}
+
+TEST(Power, FindsThreeTenthsOfAPercentEverywhere)
+{
+    const Verdicts v = measure_verdicts(golden::Method::ranks, Noise::lognormal, Noise::lognormal,
+                                        {.everywhere = 0.997}, small_plan(128, 1, 8));
+    EXPECT_GE(v.fail, v.trials() - 2);
+}
+
+TEST(Power, FindsTwoPercentInShadows)
+{
+    const Verdicts v = measure_verdicts(golden::Method::ranks, Noise::lognormal, Noise::lognormal,
+                                        {.in_shadow = 0.98}, small_plan(128, 1, 8));
+    EXPECT_GE(v.fail, v.trials() - 1);
+}
+
+TEST(Power, ARightPicturePasses)
+{
+    const Verdicts v = measure_verdicts(golden::Method::ranks, Noise::lognormal, Noise::lognormal, {},
+                                        small_plan(128, 1, 6));
+    EXPECT_EQ(v.pass, v.trials());
+}
+
+TEST(RateInterval, IsThatOfTheTables)
+{
+    // Clopper and Pearson, 95%: 0 of 10 up to 0.3085; 5 of 10 from 0.1871 to 0.8129.
+    EXPECT_EQ(rate_interval({0, 10}).low, 0.0);
+    EXPECT_NEAR(rate_interval({0, 10}).high, 0.3085, 5e-5);
+    EXPECT_NEAR(rate_interval({5, 10}).low, 0.1871, 5e-5);
+    EXPECT_NEAR(rate_interval({5, 10}).high, 0.8129, 5e-5);
+    EXPECT_EQ(rate_interval({10, 10}).high, 1.0);
+}
+
+} // namespace

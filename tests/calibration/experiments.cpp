@@ -1,0 +1,209 @@
+#include "tests/calibration/experiments.h"
+
+#include <boost/math/distributions/beta.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <thread>
+
+namespace calibration {
+
+namespace {
+
+using golden::Candidate;
+using golden::Golden;
+using golden::Method;
+
+/// Calls work(0), ..., work(count - 1), on several threads.
+template <class Work>
+void for_each_index(int count, unsigned threads, const Work& work)
+{
+    std::atomic<int> next = 0;
+    const auto loop = [&] {
+        for (int i = next++; i < count; i = next++) work(i);
+    };
+    std::vector<std::jthread> helpers;
+    for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(loop);
+    loop();
+}
+
+Golden make_golden(const SimulatedRenderer& renderer, const Plan& plan, std::uint64_t seed)
+{
+    golden::GoldenMaker maker(plan.size, plan.size, plan.pilot);
+    for (std::uint64_t batch = 0; batch < plan.pilot + plan.reference; ++batch)
+        maker.add_batch(renderer.render(seed, batch));
+    return maker.golden({{"batch_size", "4"}});
+}
+
+void add_batches(Candidate& candidate, const SimulatedRenderer& renderer, std::uint64_t seed,
+                 std::uint64_t batches, const Bias& bias = {})
+{
+    for (std::uint64_t batch = 0; batch < batches; ++batch)
+        candidate.add_batch(renderer.render(seed, batch, bias));
+}
+
+/// Calls trial(golden, seed) for each candidate; no two seeds are the same, and none is a golden's.
+template <class Trial>
+void for_each_trial(const SimulatedRenderer& renderer, const Plan& plan, const Trial& trial)
+{
+    for (int g = 0; g < plan.goldens; ++g) {
+        const std::uint64_t seed = mix(plan.seed) + static_cast<std::uint64_t>(g) * 1'000'000;
+        const Golden golden = make_golden(renderer, plan, seed);
+        for_each_index(plan.trials, plan.threads, [&](int i) {
+            trial(golden, seed + 10 * static_cast<std::uint64_t>(i + 1));
+            if (plan.tick) plan.tick();
+        });
+    }
+}
+
+std::vector<double> sorted_values(const std::vector<golden::Row>& rows,
+                                  const golden::Functionals& functionals, const golden::Finding& finding)
+{
+    std::vector<double> values =
+        golden::values_of(rows, functionals, finding.functional, finding.channel);
+    std::sort(values.begin(), values.end());
+    return values;
+}
+
+constexpr double level_of_both = 0.01;
+constexpr std::uint64_t first_stage = 64;
+constexpr std::uint64_t second_stage = 256;
+
+} // namespace
+
+golden::Interval rate_interval(const Count& count)
+{
+    using boost::math::beta_distribution;
+    const auto hits = static_cast<double>(count.hits);
+    const auto misses = static_cast<double>(count.trials - count.hits);
+    return {hits == 0.0 ? 0.0 : quantile(beta_distribution<double>(hits, misses + 1.0), 0.025),
+            misses == 0.0 ? 1.0 : quantile(beta_distribution<double>(hits + 1.0, misses), 0.975)};
+}
+
+FalseAlarms measure_false_alarms(Noise noise, const Plan& plan)
+{
+    const SimulatedRenderer renderer(plan.size, noise);
+    FalseAlarms result;
+    std::mutex mutex;
+    Plan own = plan; // so that luck with a golden is not shared among the kinds of noise
+    own.seed = mix(plan.seed) + static_cast<std::uint64_t>(noise);
+    for_each_trial(renderer, own, [&](const Golden& golden, std::uint64_t seed) {
+        const golden::CompareOptions options;
+        Candidate first(golden.functionals);
+        add_batches(first, renderer, seed, first_stage);
+        Candidate second(golden.functionals);
+        add_batches(second, renderer, seed + 1, second_stage);
+        const golden::RenderStage replay = [&](std::size_t stage, std::uint64_t, Candidate& candidate) {
+            candidate = stage == 0 ? first : second;
+        };
+        const golden::Comparison comparison = compare(golden, replay, Method::ranks, options);
+        FalseAlarms one;
+        one.suspected = {comparison.p < options.accuse, 1};
+        one.failed = {comparison.verdict == golden::Verdict::fail, 1};
+        for (const golden::Finding& finding : comparison.findings) {
+            // Of what is black nothing can be said: p is 1.
+            if (finding.region.kind != golden::RegionKind::whole && finding.test.p == 1.0) continue;
+            ++one.below_1e3.trials;
+            one.below_1e3.hits += finding.test.p < 1e-3;
+            one.below_1e5.hits += finding.test.p < 1e-5;
+            ++one.twice.trials;
+            if (finding.test.p >= level_of_both) continue;
+            const golden::TestResult again =
+                golden::mann_whitney(sorted_values(second.rows(), golden.functionals, finding),
+                                     sorted_values(golden.reference, golden.functionals, finding));
+            one.twice.hits += one_sided(again, finding.test.z) < level_of_both;
+        }
+        const std::lock_guard lock(mutex);
+        const auto add = [](Count& to, const Count& from) {
+            to.hits += from.hits;
+            to.trials += from.trials;
+        };
+        add(result.suspected, one.suspected);
+        add(result.failed, one.failed);
+        add(result.below_1e3, one.below_1e3);
+        add(result.below_1e5, {one.below_1e5.hits, one.below_1e3.trials});
+        add(result.twice, one.twice);
+    });
+    constexpr std::array counts = {static_cast<double>(first_stage), static_cast<double>(second_stage)};
+    constexpr std::array levels = {level_of_both / 2.0, level_of_both}; // either sign, then that sign
+    result.expected_twice =
+        2.0 * golden::all_exceed(counts, levels, static_cast<double>(plan.reference));
+    return result;
+}
+
+Verdicts measure_verdicts(Method method, Noise golden_noise, Noise candidate_noise, const Bias& bias,
+                          const Plan& plan)
+{
+    const SimulatedRenderer renderer(plan.size, golden_noise);
+    const SimulatedRenderer other(plan.size, candidate_noise);
+    Verdicts result;
+    std::mutex mutex;
+    for_each_trial(renderer, plan, [&](const Golden& golden, std::uint64_t seed) {
+        const golden::RenderStage render = [&](std::size_t stage, std::uint64_t batches,
+                                               Candidate& candidate) {
+            add_batches(candidate, other, seed + stage, batches, bias);
+        };
+        const auto judge = [&] {
+            if (method == Method::ranks) return compare(golden, render, method);
+            Candidate candidate(golden.functionals);
+            render(0, first_stage, candidate);
+            return method == Method::welch ? compare(golden, candidate, method)
+                                           : compare_picture(golden, candidate.film().mean(),
+                                                             4.0 * static_cast<double>(first_stage));
+        };
+        const golden::Verdict verdict = judge().verdict;
+        const std::lock_guard lock(mutex);
+        result.pass += verdict == golden::Verdict::pass;
+        result.fail += verdict == golden::Verdict::fail;
+        result.inconclusive += verdict == golden::Verdict::inconclusive;
+    });
+    return result;
+}
+
+std::vector<Count> measure_other_criteria(Noise noise, const Bias& bias, const Plan& plan)
+{
+    const SimulatedRenderer renderer(plan.size, noise);
+    const auto film_of = [&](std::uint64_t seed, std::uint64_t batches, const Bias& wrong) {
+        golden::Film film(plan.size, plan.size);
+        for (std::uint64_t batch = 0; batch < batches; ++batch)
+            film.add_batch(renderer.render(seed, batch, wrong));
+        return film;
+    };
+    const std::uint64_t golden_batches = plan.pilot + plan.reference;
+    const golden::Film reference = film_of(mix(plan.seed), golden_batches, {});
+    // The golden knows its noise best: its standard error, for the difference from 64 batches.
+    golden::Image error = reference.standard_error();
+    const auto all = static_cast<double>(golden_batches);
+    for (golden::Rgb& pixel : error.pixels)
+        pixel *= std::sqrt(1.0 + all / static_cast<double>(first_stage));
+
+    const auto trials = static_cast<std::size_t>(plan.trials);
+    const std::vector<Criterion>& criteria = other_criteria();
+    std::vector<std::vector<double>> right(criteria.size(), std::vector<double>(trials));
+    std::vector<std::vector<double>> wrong = right;
+    for_each_index(plan.trials, plan.threads, [&](int i) {
+        const std::uint64_t seed = mix(plan.seed) + 10 * static_cast<std::uint64_t>(i + 1);
+        const golden::Film right_film = film_of(seed, first_stage, {});
+        const golden::Film wrong_film = film_of(seed + 1, first_stage, bias);
+        for (std::size_t k = 0; k < criteria.size(); ++k) {
+            const auto at = static_cast<std::size_t>(i);
+            right[k][at] = criteria[k].badness(right_film.mean(), reference.mean(), error);
+            wrong[k][at] = criteria[k].badness(wrong_film.mean(), reference.mean(), error);
+        }
+        if (plan.tick) plan.tick();
+    });
+    std::vector<Count> found;
+    for (std::size_t k = 0; k < criteria.size(); ++k) {
+        std::sort(right[k].begin(), right[k].end());
+        const double threshold = right[k][trials - 1 - trials / 100];
+        const auto beyond = std::count_if(wrong[k].begin(), wrong[k].end(),
+                                          [&](double badness) { return badness > threshold; });
+        found.push_back({static_cast<std::uint64_t>(beyond), trials});
+    }
+    return found;
+}
+
+} // namespace calibration

@@ -1,0 +1,65 @@
+#pragma once
+
+// How often the comparison is wrong, measured on simulated renders of which the truth is known.
+
+#include "golden/compare.h"
+#include "tests/calibration/other_criteria.h"
+#include "tests/calibration/simulated_renderer.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace calibration {
+
+/// How often something happened.
+struct Count {
+    std::uint64_t hits = 0;
+    std::uint64_t trials = 0;
+};
+
+/// 95% confidence interval of the rate [Clopper & Pearson 1934].
+golden::Interval rate_interval(const Count& count);
+
+/// Called after each trial, from several threads.
+using Tick = std::function<void()>;
+
+struct Plan {
+    int size = 128;                // pixels a side
+    std::uint64_t pilot = 512;     // batches of the golden's halves
+    std::uint64_t reference = 512; //
+    int goldens = 1;
+    int trials = 1; // candidates per golden
+    std::uint64_t seed = 1;
+    unsigned threads = 1;
+    Tick tick = {};
+};
+
+/// Right pictures.
+struct FalseAlarms {
+    Count suspected; // first stages with something to confirm
+    Count failed;    // after all stages
+    /// Single tests, of all functionals: p below 1e-3 and 1e-5, which ought to happen as often.
+    Count below_1e3, below_1e5;
+    /// Single tests: p < 1% in the first stage and, in the same direction, in another one of 256
+    /// batches.
+    Count twice;
+    double expected_twice = 0.0; // that rate in theory, for all_exceed
+};
+FalseAlarms measure_false_alarms(Noise noise, const Plan& plan);
+
+/// What verdicts pictures get, by stages of 64 and 256 batches (Method::ranks), or as 64 pictures of
+/// another renderer (Method::welch), or as one picture of 256 samples (Method::picture).
+struct Verdicts {
+    std::uint64_t pass = 0, fail = 0, inconclusive = 0;
+    [[nodiscard]] std::uint64_t trials() const { return pass + fail + inconclusive; }
+};
+Verdicts measure_verdicts(golden::Method method, Noise golden_noise, Noise candidate_noise,
+                          const Bias& bias, const Plan& plan);
+
+/// For each of other_criteria(), how many of `plan.trials` pictures of 256 samples with this bias are
+/// worse by it than all but one in a hundred of as many right ones: its power with a well set threshold.
+std::vector<Count> measure_other_criteria(Noise noise, const Bias& bias, const Plan& plan);
+
+} // namespace calibration
