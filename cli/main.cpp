@@ -32,8 +32,8 @@ int main(int argc, char** argv)
     program.set_version_flag(
         "--version", [] { return "plumbline " PLUMBLINE_VERSION "\nGPU: " + gpu::describe_device(); });
     program.require_subcommand(1);
-    program.footer("Exit status: 0 fine, 1 a check says no, 2 bad input or usage, 3 a "
-                   "comparison cannot tell, 130 interrupted.");
+    program.footer(
+        "Exit status: 0 fine, 1 a check says no, 2 bad input, 3 cannot tell, 130 interrupted.");
     cli::Work work;
     cli::add_render_command(program, work);
     cli::add_bvh_command(program, work);

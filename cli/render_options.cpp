@@ -81,7 +81,7 @@ void add_render_options(CLI::App& command, RenderCommand& options)
     command
         .add_option("--watch", options.watch,
                     "Rewrite the outputs every so many seconds while rendering")
-        ->check(CLI::Range(0.0, 1e9));
+        ->check(CLI::Range(0.0, 1e9).description(""));
     command.add_option("--strategies", options.strategies, "One layer per strategy (s,t), to this .exr");
     command.add_option("--strategies-picture", options.strategies_picture,
                        "The sheet of all strategies, to this .png");

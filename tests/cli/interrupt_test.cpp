@@ -105,6 +105,9 @@ TEST_P(Interrupt, TwiceEndsAtOnce)
     Process process({"render", scene_file("point_over_plane"), "-o", out, "--size", "16x16", "--batch",
                      "1048576", "-s", "1048576", "-t", "1"});
     ASSERT_TRUE(eventually([&] { return process.catches(GetParam()); }));
+    // Not before the tile has begun: a fifth of a second of work.
+    const long long before = process.used();
+    ASSERT_TRUE(eventually([&] { return process.used() >= before + sysconf(_SC_CLK_TCK) / 5; }));
     process.send(GetParam());
     ASSERT_TRUE(eventually([&] { return !process.catches(GetParam()); }));
     process.send(GetParam());

@@ -33,7 +33,12 @@ std::vector<std::string> lines_of(const std::string& text)
 
 TEST(Help, FitsOneScreenAndShowsAnExample)
 {
-    for (const Arguments& arguments : {Arguments{"--help"}, {"render", "--help"}, {"render", "-h"}}) {
+    for (const Arguments& arguments : {Arguments{"--help"},
+                                       {"render", "--help"},
+                                       {"render", "-h"},
+                                       {"bvh", "--help"},
+                                       {"golden", "--help"},
+                                       {"compare", "--help"}}) {
         const Outcome help = run(arguments);
         EXPECT_EQ(help.status, 0);
         EXPECT_EQ(help.err, "");

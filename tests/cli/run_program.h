@@ -114,6 +114,17 @@ public:
         return false;
     }
 
+    /// Processor time that the process has used itself, in clock ticks (Linux: proc(5), utime).
+    [[nodiscard]] long long used() const
+    {
+        std::ifstream stat("/proc/" + std::to_string(pid_) + "/stat");
+        std::string word;
+        for (int i = 0; i < 13; ++i) stat >> word; // the name, the second, has no spaces
+        long long ticks = 0;
+        stat >> ticks;
+        return ticks;
+    }
+
     /// What has been printed on the terminal so far.
     const std::string& printed()
     {
