@@ -162,7 +162,7 @@ void add_bvh_command(CLI::App& program, Work& work)
     command->add_option("--picture", options->picture, "Draw what --show says: .png");
     command
         ->add_option("--show", options->show,
-                     "boxes; order (of leaves, in 16 pieces); visits (boxes entered, white: 64)")
+                     "boxes; order (of leaves, in 16 pieces); visits (boxes entered)")
         ->check(CLI::IsMember({"boxes", "order", "visits"}))
         ->capture_default_str();
     command->add_option("--level", options->level, "Which boxes: those at this depth, root 0")

@@ -113,8 +113,7 @@ void add_compare_command(CLI::App& program, Work& work)
     CLI::App* command = program.add_subcommand("compare", "Judge a picture by a golden");
     command
         ->add_option("pictures", options->pictures,
-                     "The candidate, then the golden. A candidate is an .exr or .pfm; several "
-                     "independent ones; or a scene, .dae, that is rendered here")
+                     "The candidate, or several independent ones, and the golden")
         ->required()
         ->expected(2, 1 << 16);
     command
@@ -132,7 +131,8 @@ void add_compare_command(CLI::App& program, Work& work)
     command->add_option("--report", options->report, "Write a page with pictures: .html");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->add_flag("-q,--quiet", options->candidate.quiet, "No progress");
-    command->footer("Exit status: 0 PASS, 1 FAIL, 3 INCONCLUSIVE, 2 bad input.\n"
+    command->footer("A candidate is an .exr, a .pfm, or a scene, .dae, that is rendered here.\n"
+                    "Exit status: 0 PASS, 1 FAIL, 3 INCONCLUSIVE, 2 bad input.\n"
                     "Example: plumbline compare mine.exr golden/renders/cornell_glass.exr -s 1024");
     command->callback([options, &work] { work = [options] { return compare_command(*options); }; });
 }
