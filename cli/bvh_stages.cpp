@@ -151,14 +151,14 @@ nlohmann::json measure_stages(const scenes::Scene& scene, const std::string& dev
     const std::vector<gpu::Box> boxes = gpu::boxes_of(scene);
     const auto n = static_cast<std::uint32_t>(boxes.size());
     nlohmann::json report = {{"scene", scene.name}, {"primitives", n}, {"device", device}};
-    nlohmann::json builders = nlohmann::json::array();
+    nlohmann::json measured = nlohmann::json::array();
     if (device == "cuda") {
         const gpu::Device found = gpu::find_device();
         if (!found.usable) throw std::runtime_error("--device cuda: " + found.description);
         report["described"] = found.description;
         report["bytes_per_second"] = found.bytes_per_second;
         for (const int bits : {30, 63})
-            builders.push_back(report_of(time_on_device(boxes, bits, repeats), n, bits,
+            measured.push_back(report_of(time_on_device(boxes, bits, repeats), n, bits,
                                          gpu::passes_on_device(bits), found.bytes_per_second,
                                          found.cache_bytes));
     } else {
@@ -169,16 +169,16 @@ nlohmann::json measure_stages(const scenes::Scene& scene, const std::string& dev
         for (const int bits : {30, 63}) {
             const Timed timed = bits == 30 ? time_on_host<std::uint32_t>(executor, boxes, repeats)
                                            : time_on_host<std::uint64_t>(executor, boxes, repeats);
-            builders.push_back(
+            measured.push_back(
                 report_of(timed.stages, n, bits, gpu::passes_on_host(bits), bandwidth, host_cache()));
-            builders.back()["sah_cost"] = timed.sah_cost;
-            builders.back()["hploc_ms"] = median(timed.clustering);
-            builders.back()["hploc_sah_cost"] = timed.clustered_sah_cost;
+            measured.back()["sah_cost"] = timed.sah_cost;
+            measured.back()["hploc_ms"] = median(timed.clustering);
+            measured.back()["hploc_sah_cost"] = timed.clustered_sah_cost;
         }
     }
     report["plausible"] = std::ranges::all_of(
-        builders, [](const nlohmann::json& builder) { return builder["plausible"].get<bool>(); });
-    report["builders"] = std::move(builders);
+        measured, [](const nlohmann::json& builder) { return builder["plausible"].get<bool>(); });
+    report["builders"] = std::move(measured);
     return report;
 }
 

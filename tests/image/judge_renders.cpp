@@ -35,8 +35,8 @@ struct Case {
     std::uint32_t batch_size; // so that a PASS is possible
     int right, wrong;         // renders of each kind
 };
-constexpr std::array cases = {Case{"point_over_plane", 4, 200, 20}, Case{"near_occluder", 4, 200, 20},
-                              Case{"all_emitters", 12, 200, 20}};
+constexpr std::array cases = {Case{"point_over_plane", 4, 67, 12}, Case{"near_occluder", 4, 67, 12},
+                              Case{"all_emitters", 12, 67, 12}};
 
 /// The picture that a camera half a pixel to the side takes: every other column of one twice as wide
 /// belongs to the neighbour. The last column has none and stays.
