@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 namespace cli {
 
@@ -39,12 +40,6 @@ void expect_size(const fs::path& path, const golden::Image& image, const golden:
                                            std::to_string(image.height) + " pixels, the golden " +
                                            std::to_string(golden.mean.width) + "x" +
                                            std::to_string(golden.mean.height));
-}
-
-std::string value_of(const golden::Metadata& metadata, const std::string& key)
-{
-    const auto found = metadata.find(key);
-    return found == metadata.end() ? "" : found->second;
 }
 
 /// Whether batches of the two are distributed alike if both are right.
@@ -129,11 +124,13 @@ Judged judge(const golden::Golden& golden, const std::vector<std::string>& files
     expect_size(files.front(), first.mean, golden);
     std::vector<golden::Image> batches;
     if (files.size() > 1) { // independent pictures
-        for (const std::string& file : files) {
-            const golden::ExrPicture picture = read_picture(file);
-            expect_size(file, picture.mean, golden);
+        golden::check_comparable(golden, first.metadata, golden::Method::welch);
+        batches.push_back(first.mean);
+        for (std::size_t i = 1; i < files.size(); ++i) {
+            golden::ExrPicture picture = read_picture(files[i]);
+            expect_size(files[i], picture.mean, golden);
             golden::check_comparable(golden, picture.metadata, golden::Method::welch);
-            batches.push_back(picture.mean);
+            batches.push_back(std::move(picture.mean));
         }
         return judge_batches(golden, batches, golden::Method::welch, std::move(first));
     }

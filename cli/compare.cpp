@@ -19,8 +19,6 @@ namespace cli {
 
 namespace {
 
-constexpr const char* channel_names[] = {"red", "green", "blue"};
-
 ExitStatus status_of(golden::Verdict verdict)
 {
     switch (verdict) {
@@ -47,9 +45,9 @@ void print_screen(const golden::Comparison& comparison)
         std::printf("noise       %.2f times what its samples were assumed to have\n",
                     *comparison.noise_ratio);
     std::printf("\nwhole picture  candidate/golden     99%% interval         would have seen\n");
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; c < golden::channel_count; ++c) {
         const golden::Finding& whole = whole_picture(comparison, c);
-        std::printf("  %-12s %12.3f%%   %8.3f%% .. %8.3f%%   %12.2f%%\n", channel_names[c],
+        std::printf("  %-12s %12.3f%%   %8.3f%% .. %8.3f%%   %12.2f%%\n", golden::channel_names[c],
                     100.0 * whole.ratio, 100.0 * whole.interval.low, 100.0 * whole.interval.high,
                     100.0 * comparison.detectable[c]);
     }

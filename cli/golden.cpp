@@ -3,7 +3,6 @@
 #include "cli/golden.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "cli/resources.h"
 #include "golden/exr.h"
 #include "golden/image_error.h"
 
@@ -27,8 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 std::uint64_t number_in(const golden::Metadata& metadata, const std::string& key)
 {
-    const auto found = metadata.find(key);
-    const std::string text = found == metadata.end() ? "" : found->second;
+    const std::string text = value_of(metadata, key);
     std::uint64_t value = 0;
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || rest != text.data() + text.size())
@@ -43,11 +41,10 @@ void expect_same_making(const fs::path& path, const golden::Metadata& found,
 {
     for (const auto& [key, value] : description) {
         if (key == "version") continue; // a golden stays until its picture is wrong
-        const auto it = found.find(key);
-        if (it == found.end() || it->second != value)
-            throw golden::ImageError(path, "its " + key + " is '" +
-                                               (it == found.end() ? "" : it->second) + "', not '" +
-                                               value + "': remove the file to make it anew");
+        const std::string stored = value_of(found, key);
+        if (stored != value)
+            throw golden::ImageError(path, "its " + key + " is '" + stored + "', not '" + value +
+                                               "': remove the file to make it anew");
     }
 }
 
@@ -61,10 +58,7 @@ std::string command_of(const GoldenCommand& options, const std::string& scene)
 
 void check(const GoldenCommand& options)
 {
-    if (options.samples % options.batch_size != 0)
-        throw std::invalid_argument("-s " + std::to_string(options.samples) +
-                                    ": not a multiple of the " + std::to_string(options.batch_size) +
-                                    " samples of a batch (--batch)");
+    expect_whole_batches(options.samples, options.batch_size);
     if (options.samples / options.batch_size <= options.pilot_batches)
         throw std::invalid_argument("-s " + std::to_string(options.samples) + ": the pilot takes " +
                                     std::to_string(options.pilot_batches * options.batch_size) +

@@ -92,12 +92,16 @@ void add_render_options(CLI::App& command, RenderCommand& options)
     command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
 }
 
+void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size)
+{
+    if (samples % batch_size != 0)
+        throw std::invalid_argument("-s " + std::to_string(samples) + ": not a multiple of the " +
+                                    std::to_string(batch_size) + " samples of a batch (--batch)");
+}
+
 void check(const RenderCommand& options)
 {
-    if (options.samples % options.batch_size != 0)
-        throw std::invalid_argument("-s " + std::to_string(options.samples) +
-                                    ": not a multiple of the " + std::to_string(options.batch_size) +
-                                    " samples of a batch (--batch)");
+    expect_whole_batches(options.samples, options.batch_size);
     if (options.no_roulette && options.max_edges == ref::unlimited_edges)
         throw std::invalid_argument("--no-roulette needs --max-edges: paths would never end");
     if (std::isnan(options.exposure) || std::isnan(options.watch))

@@ -48,6 +48,12 @@ void add_render_options(CLI::App& command, RenderCommand& options);
 /// that cannot be written to, before any work is done.
 void check(const RenderCommand& options);
 
+/// Throws std::invalid_argument unless `samples` per pixel are whole batches.
+void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size);
+
+/// What the metadata say of `key`; the empty string if they say nothing.
+std::string value_of(const golden::Metadata& metadata, const std::string& key);
+
 ref::Integrator integrator_of(const RenderCommand& options);
 ref::RenderOptions render_options(const RenderCommand& options);
 ref::Builder builder_of(const RenderCommand& options);

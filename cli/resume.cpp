@@ -24,6 +24,12 @@ golden::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
             {"version", PLUMBLINE_VERSION}};
 }
 
+std::string value_of(const golden::Metadata& metadata, const std::string& key)
+{
+    const auto found = metadata.find(key);
+    return found == metadata.end() ? "" : found->second;
+}
+
 golden::Film starting_film(const RenderCommand& options, const golden::Metadata& description)
 {
     const Size size = parse_size(options.size);
@@ -41,10 +47,9 @@ golden::Film starting_film(const RenderCommand& options, const golden::Metadata&
     golden::ExrPicture picture = golden::read_exr(*exr);
     if (!picture.film) throw std::invalid_argument(*exr + ": holds no state to resume from");
     for (const auto& [name, value] : description) {
-        const auto found = picture.metadata.find(name);
-        if (found == picture.metadata.end() || found->second != value)
-            throw std::invalid_argument(*exr + ": cannot resume: its " + name + " is '" +
-                                        (found == picture.metadata.end() ? "" : found->second) +
+        const std::string found = value_of(picture.metadata, name);
+        if (found != value)
+            throw std::invalid_argument(*exr + ": cannot resume: its " + name + " is '" + found +
                                         "', not '" + value + "'");
     }
     const golden::Image& mean = picture.film->mean();

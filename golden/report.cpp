@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <sstream>
 #include <string_view>
 
 namespace golden {
@@ -149,7 +148,7 @@ Json numbers_of(const Report& report)
     json["tiles"] = Json::array();
     json["stages"] = Json::array();
     json["findings"] = Json::array();
-    for (std::size_t channel = 0; channel < 3; ++channel) {
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
         json["whole"].push_back(json_of(whole_picture(comparison, channel)));
         const TileMap tiles = tile_map(comparison, channel);
         json["tiles"].push_back({{"columns", tiles.columns}, {"rows", tiles.rows}, {"z", tiles.z}});
