@@ -6,7 +6,7 @@
 #include "cuda/parallel/primitives.cuh"
 #include "cuda/trees/hploc.h"
 #include "cuda/trees/lbvh.h"
-#include "cuda/trees/traverse.h"
+#include "cuda/trees/surfaces.h"
 
 #include <utility>
 #include <variant>
@@ -57,6 +57,12 @@ EitherTree tree_for(Memory& memory, const CudaExecutor& executor, std::uint32_t 
     return EitherTree(std::in_place_index<1>, memory, executor, capacity);
 }
 
+void require_device()
+{
+    if (const Device device = find_device(); !device.usable)
+        throw std::runtime_error(device.description);
+}
+
 } // namespace
 
 struct DeviceLbvh::Parts {
@@ -83,8 +89,7 @@ struct DeviceLbvh::Parts {
 
 DeviceLbvh::DeviceLbvh(std::uint32_t capacity, int code_bits)
 {
-    if (const Device device = find_device(); !device.usable)
-        throw std::runtime_error(device.description);
+    require_device();
     parts_ = std::make_unique<Parts>(capacity, code_bits);
 }
 
@@ -154,25 +159,34 @@ BuiltTree DeviceLbvh::download() const
         parts_->tree);
 }
 
-std::vector<Hit> DeviceLbvh::closest_hits(std::span<const Triangle> triangles, std::span<const Ray> rays)
+namespace {
+
+/// The same kernel with and without spheres.
+template <bool has_spheres>
+void find_closest_hits(CudaExecutor& executor, const SurfaceTree& tree, const Buffer<Ray>& rays,
+                       Buffer<Hit>& hits)
 {
-    return std::visit(
-        [&](const auto& tree) {
-            Parts& on = *parts_;
-            const Buffer<Triangle> given(on.memory, triangles);
-            const Buffer<Ray> asked(on.memory, rays);
-            Buffer<Triangle> ordered(on.memory, triangles.size());
-            Buffer<WideNode> wide(on.memory, tree.nodes().size());
-            Buffer<Hit> hits(on.memory, rays.size());
-            on.executor(tree.primitive_count(),
-                        OrderTriangles{given.all(), tree.primitives(), ordered.all()});
-            on.executor(static_cast<std::uint32_t>(wide.size()), WidenNodes{tree.nodes(), wide.all()});
-            const WideTreeView view{wide.all(), tree.primitives(), ordered.all()};
-            on.executor(static_cast<std::uint32_t>(rays.size()),
-                        FindClosestHits<WideTreeView>{view, asked.all(), hits.all()});
-            return hits.read(rays.size());
-        },
-        parts_->tree);
+    executor(static_cast<std::uint32_t>(rays.size()),
+             FindClosestHits<Surfaces<has_spheres>>{tree.view<has_spheres>(), rays.all(), hits.all()});
+}
+
+} // namespace
+
+std::vector<Hit> closest_hits_on_device(std::span<const Triangle> triangles,
+                                        std::span<const Sphere> spheres, std::span<const Ray> rays)
+{
+    require_device();
+    const Stream stream;
+    DeviceMemory memory(stream.get());
+    CudaExecutor executor(stream.get());
+    const SurfaceTree tree(memory, executor, triangles, spheres);
+    const Buffer<Ray> asked(memory, rays);
+    Buffer<Hit> hits(memory, rays.size());
+    if (tree.has_spheres())
+        find_closest_hits<true>(executor, tree, asked, hits);
+    else
+        find_closest_hits<false>(executor, tree, asked, hits);
+    return hits.read(rays.size());
 }
 
 } // namespace gpu

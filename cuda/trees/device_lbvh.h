@@ -3,7 +3,7 @@
 // Trees on a GPU, for code that is not compiled by nvcc.
 
 #include "cuda/trees/node.h"
-#include "cuda/trees/ray.h"
+#include "cuda/trees/sphere.h"
 
 #include <array>
 #include <cstdint>
@@ -51,14 +51,14 @@ public:
     /// that is none.
     [[nodiscard]] BuiltTree download() const;
 
-    /// The closest hits of rays with the triangles whose boxes (BoundTriangles) the tree was built over,
-    /// by way of wide nodes.
-    [[nodiscard]] std::vector<Hit> closest_hits(std::span<const Triangle> triangles,
-                                                std::span<const Ray> rays);
-
 private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
+
+/// The closest hits of rays with surfaces (surfaces.h) on the first GPU. Throws as DeviceLbvh does, and
+/// std::invalid_argument that names the first primitive that is not finite.
+std::vector<Hit> closest_hits_on_device(std::span<const Triangle> triangles,
+                                        std::span<const Sphere> spheres, std::span<const Ray> rays);
 
 } // namespace gpu

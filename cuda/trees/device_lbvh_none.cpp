@@ -36,10 +36,11 @@ BuiltTree DeviceLbvh::download_clustered()
     return {};
 }
 
-std::vector<Hit> DeviceLbvh::closest_hits(std::span<const Triangle> /*triangles*/,
-                                          std::span<const Ray> /*rays*/)
+std::vector<Hit> closest_hits_on_device(std::span<const Triangle> /*triangles*/,
+                                        std::span<const Sphere> /*spheres*/,
+                                        std::span<const Ray> /*rays*/)
 {
-    return {};
+    throw std::runtime_error(describe_device());
 }
 
 } // namespace gpu

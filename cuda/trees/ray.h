@@ -19,7 +19,13 @@ struct Ray {
 struct Hit {
     float t;
     std::uint32_t primitive;
-    float b1, b2; // weights of the second and third vertex
+    float b1, b2; // weights of the second and third vertex; 0 on a sphere
 };
+
+/// Closer, or as close and of a lower number: so that the closest hit does not depend on the tree.
+HD inline bool comes_before(const Hit& a, const Hit& b)
+{
+    return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
+}
 
 } // namespace gpu

@@ -2,13 +2,14 @@
 
 // A ray against boxes, as three pairs of planes [Kay and Kajiya 1986].
 //
-// The test must not miss a box around a triangle that intersect.h would hit. Let u = 2^-24 be the unit
-// roundoff and m the largest coordinate of b - o over the corners b of the root's box, o the origin of
-// the ray. The shear moves a vertex by no more than 7 u m across the ray and 3 u m along it (two
-// differences, two quotients, one product on the way), t is rounded once, and here the difference b - o,
-// its padding, the reciprocal and the product round once each. All of it together stays below 32 u m
-// along every axis, by which every box is padded; so no comparison needs a tolerance. [Ize 2013] is
-// about the boxes alone.
+// The test must not miss a box around a triangle that intersect.h would hit, nor one around a sphere.
+// Let u = 2^-24 be the unit roundoff and m the largest coordinate of b - o over the corners b of the
+// root's box, o the origin of the ray. The shear moves a vertex by no more than 7 u m across the ray and
+// 3 u m along it (two differences, two quotients, one product on the way), and t is rounded once. What
+// counts as a hit of a sphere is within 22 u M of it (sphere.h), where M <= 2 m: the radius is m at
+// most, and the distance of the centre sqrt(3) m. Here the difference b - o, its padding, the reciprocal
+// and the product round once each. All of it together stays below 64 u m along every axis, by which
+// every box is padded; so no comparison needs a tolerance. [Ize 2013] is about the boxes alone.
 
 #include "cuda/trees/ray.h"
 #include "cuda/trees/wide_node.h"
@@ -25,7 +26,7 @@ public:
     {
         const Vec3 reach = glm::max(glm::abs(root.lower - origin_), glm::abs(root.upper - origin_));
         const float m = glm::max(glm::max(reach.x, reach.y), reach.z);
-        const float padding = 32 * (std::numeric_limits<float>::epsilon() / 2) * m;
+        const float padding = 64 * (std::numeric_limits<float>::epsilon() / 2) * m;
         // Of -0 the reciprocal is minus infinity: such a ray descends.
         padding_ = Vec3(reciprocal_.x < 0 ? -padding : padding, reciprocal_.y < 0 ? -padding : padding,
                         reciprocal_.z < 0 ? -padding : padding);

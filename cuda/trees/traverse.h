@@ -153,8 +153,7 @@ HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test)
     }
 }
 
-/// The hit of smallest t; of several at the same t, that of the lowest primitive number, so that the
-/// answer does not depend on the tree.
+/// The hit of smallest t; of several at the same t, that of the lowest primitive number.
 template <class View>
 HD Hit closest_hit(const View& tree, const Ray& ray)
 {
@@ -162,8 +161,7 @@ HD Hit closest_hit(const View& tree, const Ray& ray)
     Hit best{ray.t_max, no_primitive, 0, 0};
     traverse(tree, ray, [&](std::uint32_t leaf) {
         Hit hit{0, tree.primitives[leaf], 0, 0};
-        if (intersect_triangle(sheared, tree.triangles[leaf], ray.t_max, hit) &&
-            (hit.t < best.t || (hit.t == best.t && hit.primitive < best.primitive)))
+        if (intersect_triangle(sheared, tree.triangles[leaf], ray.t_max, hit) && comes_before(hit, best))
             best = hit;
         return best.t;
     });

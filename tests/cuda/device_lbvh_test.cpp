@@ -3,6 +3,7 @@
 #include "cuda/trees/device_lbvh.h"
 
 #include "cuda/parallel/memory.h"
+#include "cuda/trees/surfaces.h"
 #include "tests/cuda/build_on.h"
 #include "tests/cuda/on_device.h"
 #include "tests/cuda/triangles.h"
@@ -86,22 +87,25 @@ TEST_F(OnDevice, StagesTakeTimeAndGiveTheSameTree)
 TEST_F(OnDevice, RaysFindTheHitsThatTheHostFinds) // bit for bit: no multiply-add is fused on either side
 {
     const auto triangles = cuda_test::triangles_of(test::icosphere(4, 0.5));
-    std::vector<gpu::Box> boxes(triangles.size());
-    gpu::SerialExecutor{}(static_cast<std::uint32_t>(boxes.size()),
-                          gpu::BoundTriangles{triangles, boxes});
     Random random(1);
+    std::vector<gpu::Sphere> spheres;
+    for (int i = 0; i < 100; ++i)
+        spheres.push_back({gpu::Vec3(random.in_cube()), static_cast<float>(random.magnitude(-2, -0.5))});
     std::vector<gpu::Ray> rays;
     for (int i = 0; i < 10000; ++i)
         rays.push_back({gpu::Vec3(2.0 * random.in_cube()), std::numeric_limits<float>::infinity(),
                         gpu::Vec3(random.direction())});
-    gpu::DeviceLbvh tree(static_cast<std::uint32_t>(boxes.size()), 63);
-    tree.build(boxes);
-    const std::vector<gpu::Hit> hits = tree.closest_hits(triangles, rays);
-    const cuda_test::Traceable host(triangles);
+    gpu::HostMemory memory;
+    gpu::SerialExecutor executor;
     using Words = std::array<std::uint32_t, 4>;
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        ASSERT_EQ(std::bit_cast<Words>(hits[i]), std::bit_cast<Words>(closest_hit(host.wide(), rays[i])))
-            << i;
+    for (const auto& with : {spheres, std::vector<gpu::Sphere>()}) {
+        const std::vector<gpu::Hit> hits = gpu::closest_hits_on_device(triangles, with, rays);
+        const gpu::SurfaceTree host(memory, executor, triangles, with);
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            ASSERT_EQ(std::bit_cast<Words>(hits[i]),
+                      std::bit_cast<Words>(closest_hit(host.view<true>(), rays[i])))
+                << i;
+    }
 }
 
 TEST_F(OnDevice, OutOfMemoryNamesBytesAndLeavesTheDeviceUsable)
