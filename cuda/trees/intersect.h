@@ -21,14 +21,14 @@ public:
         ky_ = (kz_ + 2) % 3;
         origin_ = permuted(ray.origin);
         const Vec3 d = permuted(ray.direction);
-        S_ = Vec3(d.x, d.y, 1.0f) / d.z;
+        shear_ = Vec3(d.x, d.y, 1.0f) / d.z;
     }
     /// x and y across the ray; z is the t at which it is level with the vertex. The same vertex is moved
     /// to the same place for every triangle that it belongs to: so no gap opens between them.
     [[nodiscard]] HD Vec3 shear(const Vec3& vertex) const
     {
         const Vec3 moved = permuted(vertex) - origin_;
-        return {moved.x - S_.x * moved.z, moved.y - S_.y * moved.z, S_.z * moved.z};
+        return {moved.x - shear_.x * moved.z, moved.y - shear_.y * moved.z, shear_.z * moved.z};
     }
 
 private:
@@ -40,7 +40,7 @@ private:
 
     int kx_, ky_, kz_;
     Vec3 origin_; // permuted
-    Vec3 S_;
+    Vec3 shear_;
 };
 
 /// px qy - py qx, of which the products are exact in double and the difference rounds once: its sign is
