@@ -1,10 +1,12 @@
 // `plumbline render`: a scene file in, pictures out.
 
 #include "cli/command.h"
+#include "cli/fast_render.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "cli/resources.h"
+#include "cuda/transport/renderer.h"
 #include "golden/exr.h"
 #include "golden/png.h"
 #include "golden/strategy_sheet.h"
@@ -52,10 +54,9 @@ std::string batch_name(std::size_t number)
     return "batch." + std::string(4 - std::min<std::size_t>(4, digits.size()), '0') + digits;
 }
 
-void write_strategies(const RenderCommand& options, const ref::StrategyLayers& layers,
+void write_strategies(const RenderCommand& options, const golden::Strategies& pictures,
                       const golden::Film& film, golden::Metadata metadata)
 {
-    const golden::Strategies pictures = layers.means();
     metadata["samples"] = std::to_string(film.batches() * options.batch_size);
     metadata["strategies"] = options.unweighted ? "unweighted" : "weighted";
     if (!options.strategies.empty()) {
@@ -77,6 +78,7 @@ void report(const RenderCommand& options, const scenes::Scene& scene, const gold
     mean /= static_cast<double>(film.mean().pixels.size());
     const nlohmann::ordered_json json = {
         {"scene", scene.name},
+        {"device", options.device},
         {"integrator", options.integrator},
         {"width", film.mean().width},
         {"height", film.mean().height},
@@ -103,10 +105,17 @@ ExitStatus render(const RenderCommand& options)
     golden::Film film = starting_film(options, metadata);
     const std::uint64_t batches_before = film.batches();
     const ref::RenderOptions plan = render_options(options);
-    const ref::World world(scene, size.width, size.height, builder_of(options));
+    const bool want_layers = !options.strategies.empty() || !options.strategies_picture.empty();
+    std::optional<ref::World> world;
     std::optional<ref::StrategyLayers> layers;
-    if (!options.strategies.empty() || !options.strategies_picture.empty())
-        layers.emplace(size.width, size.height, options.max_edges, !options.unweighted);
+    std::unique_ptr<gpu::Renderer> fast;
+    LayerSums fast_layers;
+    if (options.device == "ref") {
+        world.emplace(scene, size.width, size.height, builder_of(options));
+        if (want_layers) layers.emplace(size.width, size.height, options.max_edges, !options.unweighted);
+    } else {
+        fast = fast_renderer(options, scene);
+    }
 
     golden::Layers batches;
 
@@ -129,15 +138,17 @@ ExitStatus render(const RenderCommand& options)
                 write_outputs(options, so_far, metadata, batches);
                 written = Clock::now();
             };
-        complete =
-            ref::render(world, integrator_of(options), plan, film, monitor, layers ? &*layers : nullptr);
+        complete = fast ? cli::render(*fast, options, film, monitor, fast_layers)
+                        : ref::render(*world, integrator_of(options), plan, film, monitor,
+                                      layers ? &*layers : nullptr);
     }
     const double seconds = seconds_since(start);
     const double cpu = cpu_seconds() - cpu_start;
 
     const bool anything = film.batches() > 0;
     if (anything) write_outputs(options, film, metadata, batches);
-    if (anything && layers) write_strategies(options, *layers, film, metadata);
+    if (anything && want_layers)
+        write_strategies(options, fast ? fast_layers.means() : layers->means(), film, metadata);
     if (options.json)
         report(options, scene, film,
                static_cast<double>((film.batches() - batches_before) * options.batch_size) * size.width *
@@ -156,8 +167,7 @@ ExitStatus render(const RenderCommand& options)
 void add_render_command(CLI::App& program, Work& work)
 {
     const auto options = std::make_shared<RenderCommand>();
-    CLI::App* command =
-        program.add_subcommand("render", "Render a scene file with the reference integrators");
+    CLI::App* command = program.add_subcommand("render", "Render a scene file");
     add_render_options(*command, *options);
     command->footer(
         "Example: plumbline render scenes/cornell_glass.dae -o glass.exr -o glass.png -s 256");

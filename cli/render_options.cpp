@@ -23,6 +23,12 @@ const std::map<std::string, ref::Heuristic> heuristics = {{"balance", ref::Heuri
 /// Each is a picture in memory and in the file.
 constexpr std::uint64_t most_batches_kept = 1024;
 
+/// A check that the help page does not repeat: the option's own text names them.
+CLI::Validator one_of(const std::vector<std::string>& words)
+{
+    return CLI::IsMember(words).description("");
+}
+
 /// CLI11 takes "-1" for 2^64 - 1, and what is larger for that too.
 std::string expect_seed(const std::string& text)
 {
@@ -52,16 +58,23 @@ void add_render_options(CLI::App& command, RenderCommand& options)
     command.add_option("-t,--threads", options.threads, "Threads; the picture does not depend on them")
         ->check(CLI::Range(1u, 1024u))
         ->capture_default_str();
+    command
+        .add_option("--device", options.device,
+                    "ref: the reference; or the fast path in floats, on host or cuda")
+        ->check(one_of({"ref", "host", "cuda"}))
+        ->capture_default_str();
+    command.add_flag("--deterministic", options.deterministic,
+                     "The fast path gives the same bits every time; ref always does");
     command.add_option("--integrator", options.integrator, "path, bdpt (bidirectional) or light")
-        ->check(CLI::IsMember(integrators))
+        ->check(one_of({"path", "bdpt", "light"}))
         ->capture_default_str();
     command
         .add_option("--builder", options.builder,
-                    "Of the tree that rays go through; changes no bit of the picture")
-        ->check(CLI::IsMember(builder_names()))
+                    "Tree of ref: morton30, morton63, sah or sah-leaf; changes no bit")
+        ->check(one_of(builder_names()))
         ->capture_default_str();
     command.add_option("--heuristic", options.heuristic, "Weights of bdpt: balance or power")
-        ->check(CLI::IsMember(heuristics))
+        ->check(one_of({"balance", "power"}))
         ->capture_default_str();
     command
         .add_option("--max-edges", options.max_edges,
@@ -106,6 +119,9 @@ void check(const RenderCommand& options)
         throw std::invalid_argument("--no-roulette needs --max-edges: paths would never end");
     if (std::isnan(options.exposure) || std::isnan(options.watch))
         throw std::invalid_argument("--exposure and --watch expect numbers, and got a NaN");
+    if (options.device != "ref" && options.builder != RenderCommand{}.builder)
+        throw std::invalid_argument("--builder " + options.builder +
+                                    " is for --device ref: the fast path has a tree of its own");
     const bool layers = !options.strategies.empty() || !options.strategies_picture.empty();
     if (layers && options.max_edges > ref::most_edges_of_layers)
         throw std::invalid_argument("--strategies needs --max-edges of at most " +

@@ -23,11 +23,13 @@ struct RenderCommand {
     std::uint64_t samples = 64;
     std::uint32_t batch_size = 4;
     unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+    std::string device = "ref";
     std::string integrator = "path";
     std::string builder = "sah-leaf";
     std::string heuristic = "balance";
     int max_edges = ref::unlimited_edges;
     bool no_roulette = false;
+    bool deterministic = false;
     std::uint64_t seed = 0;
     double exposure = 0.0;
     bool frame = false;

@@ -11,17 +11,21 @@ namespace cli {
 
 golden::Metadata describe(const RenderCommand& options, const scenes::Scene& scene)
 {
-    return {{"scene", scene.name},
-            {"scene_hash", scene.hash},
-            {"integrator", options.integrator},
-            {"heuristic", options.heuristic},
-            {"batch_size", std::to_string(options.batch_size)},
-            {"max_edges", options.max_edges == ref::unlimited_edges ? "unlimited"
-                                                                    : std::to_string(options.max_edges)},
-            {"roulette", options.no_roulette ? "off" : "on"},
-            {"seed", std::to_string(options.seed)},
-            {"camera", options.frame ? "framed" : "of the scene"},
-            {"version", PLUMBLINE_VERSION}};
+    golden::Metadata metadata = {{"scene", scene.name},
+                                 {"scene_hash", scene.hash},
+                                 {"integrator", options.integrator},
+                                 {"heuristic", options.heuristic},
+                                 {"batch_size", std::to_string(options.batch_size)},
+                                 {"max_edges", options.max_edges == ref::unlimited_edges
+                                                   ? "unlimited"
+                                                   : std::to_string(options.max_edges)},
+                                 {"roulette", options.no_roulette ? "off" : "on"},
+                                 {"seed", std::to_string(options.seed)},
+                                 {"camera", options.frame ? "framed" : "of the scene"},
+                                 {"version", PLUMBLINE_VERSION}};
+    // Nothing is said of the reference, so that its files stay what they were.
+    if (options.device != "ref") metadata["device"] = options.device;
+    return metadata;
 }
 
 std::string value_of(const golden::Metadata& metadata, const std::string& key)
@@ -46,7 +50,9 @@ golden::Film starting_film(const RenderCommand& options, const golden::Metadata&
 
     golden::ExrPicture picture = golden::read_exr(*exr);
     if (!picture.film) throw std::invalid_argument(*exr + ": holds no state to resume from");
-    for (const auto& [name, value] : description) {
+    golden::Metadata expected = description;
+    expected.try_emplace("device", ""); // the reference
+    for (const auto& [name, value] : expected) {
         const std::string found = value_of(picture.metadata, name);
         if (found != value)
             throw std::invalid_argument(*exr + ": cannot resume: its " + name + " is '" + found +

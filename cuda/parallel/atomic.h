@@ -35,4 +35,28 @@ HD inline std::uint32_t arrive(std::uint32_t& counter)
 #endif
 }
 
+/// Adds `term` to `sum`, and orders nothing else. Sums of floats depend on the order of their terms, so
+/// threads that meet here may differ from run to run in the last bits.
+HD inline void add(float& sum, float term)
+{
+#if defined(__CUDA_ARCH__)
+    atomicAdd(&sum, term);
+#else
+    if (schedule_point != nullptr) schedule_point();
+    std::atomic_ref<float>(sum).fetch_add(term, std::memory_order_relaxed);
+#endif
+}
+
+/// The same for whole numbers, whose sums do not depend on the order.
+HD inline void add(std::uint64_t& sum, std::uint64_t term)
+{
+#if defined(__CUDA_ARCH__)
+    cuda::atomic_ref<std::uint64_t, cuda::thread_scope_device>(sum).fetch_add(
+        term, cuda::memory_order_relaxed);
+#else
+    if (schedule_point != nullptr) schedule_point();
+    std::atomic_ref<std::uint64_t>(sum).fetch_add(term, std::memory_order_relaxed);
+#endif
+}
+
 } // namespace gpu

@@ -59,10 +59,13 @@ public:
         memory_->write(first(contents.size()).data(), contents.data(), contents.size_bytes());
     }
     /// The first `count` elements, on the host.
-    [[nodiscard]] std::vector<T> read(std::size_t count) const
+    [[nodiscard]] std::vector<T> read(std::size_t count) const { return read(0, count); }
+    /// `count` elements from number `begin` on, on the host.
+    [[nodiscard]] std::vector<T> read(std::size_t begin, std::size_t count) const
     {
         std::vector<T> contents(count);
-        memory_->read(contents.data(), first(count).data(), count * sizeof(T));
+        if (count > 0)
+            memory_->read(contents.data(), all().subspan(begin, count).data(), count * sizeof(T));
         return contents;
     }
 

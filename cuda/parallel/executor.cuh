@@ -29,6 +29,8 @@ public:
         run_kernel<<<(count - 1) / block_size + 1, block_size, 0, stream_>>>(kernel, count);
         check(cudaGetLastError());
     }
+    /// Returns when all that was queued is done.
+    void wait() const { check(cudaStreamSynchronize(stream_)); }
     [[nodiscard]] cudaStream_t stream() const { return stream_; }
 
 private:

@@ -38,6 +38,8 @@ public:
         };
         run(std::ref(work));
     }
+    /// Nothing is ever queued here.
+    void wait() const {}
     [[nodiscard]] std::uint32_t width() const { return static_cast<std::uint32_t>(workers_.size()) + 1; }
 
 private:

@@ -4,6 +4,7 @@
 #include "cuda/parallel/device_memory.cuh"
 #include "cuda/parallel/executor.cuh"
 #include "cuda/parallel/primitives.cuh"
+#include "cuda/parallel/stream.cuh"
 #include "cuda/trees/hploc.h"
 #include "cuda/trees/lbvh.h"
 #include "cuda/trees/surfaces.h"
@@ -14,19 +15,6 @@
 namespace gpu {
 
 namespace {
-
-/// A stream that ends with its owner.
-class Stream {
-public:
-    Stream() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }
-    ~Stream() { cudaStreamDestroy(stream_); }
-    Stream(const Stream&) = delete;
-    Stream& operator=(const Stream&) = delete;
-    [[nodiscard]] cudaStream_t get() const { return stream_; }
-
-private:
-    cudaStream_t stream_{};
-};
 
 /// A point of time on a stream.
 class Event {

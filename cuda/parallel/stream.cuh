@@ -1,0 +1,23 @@
+#pragma once
+
+// A CUDA stream that ends with its owner.
+
+#include "cuda/parallel/check.cuh"
+
+#include <cuda_runtime.h>
+
+namespace gpu {
+
+class Stream {
+public:
+    Stream() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }
+    ~Stream() { cudaStreamDestroy(stream_); }
+    Stream(const Stream&) = delete;
+    Stream& operator=(const Stream&) = delete;
+    [[nodiscard]] cudaStream_t get() const { return stream_; }
+
+private:
+    cudaStream_t stream_{};
+};
+
+} // namespace gpu

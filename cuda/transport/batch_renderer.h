@@ -1,0 +1,196 @@
+#pragma once
+
+// Batches of samples, launch by launch, on any executor.
+
+#include "cuda/transport/launch_samples.h"
+#include "cuda/transport/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+namespace gpu {
+
+/// How many samples a launch takes. A GPU that also drives a screen ends kernels that run for some
+/// seconds, and nobody wants to wait long for Ctrl-C; but short launches leave processors idle at their
+/// ends. So launches grow and shrink between limits until one takes about as long as it should. No
+/// picture depends on it.
+class LaunchSize {
+public:
+    LaunchSize(std::uint32_t least, std::uint32_t most) : least_(least), most_(most), size_(least) {}
+    [[nodiscard]] std::uint32_t get() const { return size_; }
+    [[nodiscard]] std::uint32_t most() const { return most_; }
+    void took(std::chrono::duration<double> time)
+    {
+        if (time.count() < 0.03 && size_ <= most_ / 2) size_ *= 2;
+        if (time.count() > 0.12 && size_ / 2 >= least_) size_ /= 2;
+    }
+
+private:
+    std::uint32_t least_, most_, size_;
+};
+
+/// A Renderer on an executor whose kernels work on `memory`, and whose wait() returns when all that was
+/// queued is done.
+template <Executor E>
+class BatchRenderer : public Renderer {
+public:
+    BatchRenderer(Memory& memory, E& executor, LaunchSize launch_size, const scenes::Scene& scene,
+                  int width, int height, const RenderOptions& options)
+        : BatchRenderer(memory, executor, launch_size, scene, scene_arrays(scene, options.roulette),
+                        width, height, options)
+    {}
+
+    std::optional<Batch> render_batch(std::uint64_t number, const Monitor& monitor) override
+    {
+        clear(sums_);
+        clear(splats_);
+        clear(exact_);
+        clear(layers_);
+        const auto first = static_cast<std::uint32_t>(number * options_.batch_size);
+        std::uint64_t done = 0;
+        const std::uint64_t all = std::uint64_t{pixels_} * options_.batch_size;
+        // Sample after sample of as many pixels as a launch takes, then the next pixels.
+        for (std::uint32_t pixel = 0; pixel < pixels_;) {
+            const std::uint32_t width = std::min(launch_size_.get(), pixels_ - pixel);
+            for (std::uint32_t sample = 0; sample < options_.batch_size;) {
+                if (monitor.stop && monitor.stop()) return std::nullopt;
+                const std::uint32_t at_once =
+                    options_.layers == Layers::none ? std::max(launch_size_.get() / width, 1u) : 1u;
+                const Launch launch{pixel, width, first + sample,
+                                    std::min(at_once, options_.batch_size - sample)};
+                const auto start = std::chrono::steady_clock::now();
+                run(launch);
+                executor_.wait();
+                launch_size_.took(std::chrono::steady_clock::now() - start);
+                sample += launch.samples;
+                done += launch.count();
+                if (monitor.progress)
+                    monitor.progress(static_cast<double>(done) / static_cast<double>(all));
+            }
+            pixel += width;
+        }
+        return collect();
+    }
+
+private:
+    BatchRenderer(Memory& memory, E& executor, LaunchSize launch_size, const scenes::Scene& scene,
+                  const SceneArrays& arrays, int width, int height, const RenderOptions& options)
+        : executor_(executor), launch_size_(launch_size), options_(checked(options)), width_(width),
+          height_(height), pixels_(static_cast<std::uint32_t>(width * height)), needs_(needs_of(arrays)),
+          scene_(memory, executor, arrays, camera_of(scene, arrays.origin, width, height)),
+          capacity_(options.integrator == Integrator::bdpt
+                        ? most_light_vertices(arrays, options_.max_edges)
+                        : 0),
+          own_(memory, launch_size.most()),
+          kept_(memory, static_cast<std::size_t>(capacity_) * launch_size.most()),
+          sums_(memory, pixels_),
+          splats_(memory, options.deterministic ? 0 : splat_pictures() * pixels_),
+          exact_(memory, options.deterministic ? 3 * splat_pictures() * pixels_ : 0),
+          layers_(memory, options.layers == Layers::none ? 0 : layer_count() * std::size_t{pixels_})
+    {}
+
+    static RenderOptions checked(RenderOptions options)
+    {
+        if (options.max_edges < 1) throw std::invalid_argument("a path has at least one edge");
+        options.max_edges = std::min(options.max_edges, most_edges);
+        if (options.layers != Layers::none && options.max_edges > most_edges_of_layers)
+            throw std::invalid_argument("a picture for each strategy needs paths of at most " +
+                                        std::to_string(most_edges_of_layers) + " edges");
+        return options;
+    }
+    /// One of all splats; with layers, one more for each strategy (s, 1).
+    [[nodiscard]] std::size_t splat_pictures() const
+    {
+        return options_.layers == Layers::none ? 1 : 1 + static_cast<std::size_t>(options_.max_edges);
+    }
+    [[nodiscard]] std::size_t layer_count() const { return layer_of(options_.max_edges, 1) + 1; }
+
+    template <class T>
+    void clear(Buffer<T>& buffer)
+    {
+        executor_(static_cast<std::uint32_t>(buffer.size()), Clear<T>{buffer.all()});
+    }
+
+    void run(const Launch& launch)
+    {
+        const PathOptions path{options_.seed, options_.max_edges, options_.heuristic};
+        const FilmTarget film{own_.all(),
+                              {splats_.all(), exact_.all()},
+                              layers_.all(),
+                              options_.layers == Layers::weighted,
+                              pixels_};
+        const SampleJob job{path, launch, film, kept_.all(), capacity_};
+        switch (options_.integrator) {
+        case Integrator::path:
+            launch_samples<Integrator::path>(executor_, needs_, scene_, job);
+            break;
+        case Integrator::bdpt:
+            launch_samples<Integrator::bdpt>(executor_, needs_, scene_, job);
+            break;
+        case Integrator::light:
+            launch_samples<Integrator::light>(executor_, needs_, scene_, job);
+            break;
+        }
+        executor_(launch.pixels, SumSamples{own_.all(), sums_.all(), launch.first_pixel, launch.pixels,
+                                            launch.samples});
+    }
+
+    /// The splats of picture i, see SplatTarget.
+    [[nodiscard]] golden::Image splats(std::size_t picture) const
+    {
+        golden::Image image(width_, height_);
+        const std::size_t first = picture * pixels_;
+        if (options_.deterministic) {
+            const std::vector<ExactSum> sums = exact_.read(3 * first, 3 * std::size_t{pixels_});
+            for (std::size_t i = 0; i < pixels_; ++i)
+                image.pixels[i] = {sums[3 * i].value(), sums[3 * i + 1].value(),
+                                   sums[3 * i + 2].value()};
+        } else {
+            const std::vector<Rgb> sums = splats_.read(first, pixels_);
+            for (std::size_t i = 0; i < pixels_; ++i) image.pixels[i] = golden::Rgb(sums[i]);
+        }
+        return image;
+    }
+
+    [[nodiscard]] Batch collect() const
+    {
+        Batch batch;
+        batch.mean = splats(0);
+        const std::vector<Rgb> own = sums_.read(pixels_);
+        for (std::size_t i = 0; i < pixels_; ++i)
+            batch.mean.pixels[i] =
+                (golden::Rgb(own[i]) + batch.mean.pixels[i]) / static_cast<double>(options_.batch_size);
+        if (options_.layers == Layers::none) return batch;
+        for (int k = 1; k <= options_.max_edges; ++k)
+            for (int s = 0; s <= k; ++s) {
+                golden::Image image(width_, height_);
+                if (s == k) {
+                    image = splats(static_cast<std::size_t>(s));
+                } else {
+                    const std::vector<Rgb> sums =
+                        layers_.read(std::size_t{layer_of(s, k + 1 - s)} * pixels_, pixels_);
+                    for (std::size_t i = 0; i < pixels_; ++i) image.pixels[i] = golden::Rgb(sums[i]);
+                }
+                batch.layers.emplace(std::pair(s, k + 1 - s), std::move(image));
+            }
+        return batch;
+    }
+
+    E& executor_;
+    LaunchSize launch_size_;
+    RenderOptions options_;
+    int width_, height_;
+    std::uint32_t pixels_;
+    Needs needs_;
+    SceneInMemory scene_;
+    int capacity_; // of the light vertices of a sample
+    Buffer<Rgb> own_;
+    Buffer<LightVertex> kept_;
+    Buffer<Rgb> sums_;
+    Buffer<Rgb> splats_;
+    Buffer<ExactSum> exact_;
+    Buffer<Rgb> layers_;
+};
+
+} // namespace gpu

@@ -1,0 +1,56 @@
+#pragma once
+
+// The pinhole camera: from a point of the film to a ray and back, and what the film measures. Importance
+// and density are those of the reference: W_e = 1 / (A cos^4), A the film's area at distance 1, and the
+// number of pixels cancels against as many light walks as there are eye walks.
+
+#include "cuda/parallel/vec.h"
+
+namespace gpu {
+
+struct Camera {
+    Vec3 eye;
+    Vec3 right, up, backward; // orthonormal; it looks along -backward
+    float pixel_size;         // on an image plane at distance 1
+    float film_area;          // of all pixels there
+    std::uint32_t width, height;
+
+    /// The unit direction seen through the film point (x, y), in pixels from the top left corner.
+    [[nodiscard]] HD Vec3 direction(float x, float y) const
+    {
+        return glm::normalize((x - 0.5f * static_cast<float>(width)) * pixel_size * right +
+                              (0.5f * static_cast<float>(height) - y) * pixel_size * up - backward);
+    }
+
+    /// Cosine between the unit direction `w` from the eye and the viewing direction.
+    [[nodiscard]] HD float cosine(const Vec3& w) const { return -glm::dot(w, backward); }
+
+    /// Whether the picture shows what is in direction `w` from the eye; sets the pixel that does.
+    [[nodiscard]] HD bool project(const Vec3& w, std::uint32_t& pixel) const
+    {
+        const float ahead = cosine(w);
+        if (ahead <= 0.0f) return false;
+        const float scale = 1.0f / (ahead * pixel_size);
+        const float x = 0.5f * static_cast<float>(width) + glm::dot(w, right) * scale;
+        const float y = 0.5f * static_cast<float>(height) - glm::dot(w, up) * scale;
+        if (!(x >= 0.0f && x < static_cast<float>(width) && y >= 0.0f && y < static_cast<float>(height)))
+            return false;
+        pixel = static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x);
+        return true;
+    }
+
+    /// W_e (sr^-1) towards a unit direction within the picture, whose cosine is given.
+    [[nodiscard]] HD float importance(float cosine_w) const
+    {
+        const float squared = cosine_w * cosine_w;
+        return 1.0f / (film_area * squared * squared);
+    }
+
+    /// The density with which eye walks over the whole film start in such a direction.
+    [[nodiscard]] HD float pdf_solid_angle(float cosine_w) const
+    {
+        return 1.0f / (film_area * cosine_w * cosine_w * cosine_w);
+    }
+};
+
+} // namespace gpu

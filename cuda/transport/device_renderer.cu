@@ -1,0 +1,68 @@
+#include "cuda/device.h"
+#include "cuda/parallel/device_memory.cuh"
+#include "cuda/parallel/executor.cuh"
+#include "cuda/parallel/primitives.cuh"
+#include "cuda/parallel/stream.cuh"
+#include "cuda/transport/batch_renderer.h"
+
+namespace gpu {
+
+// In device_path.cu and its like.
+extern template void launch_samples<Integrator::path>(CudaExecutor&, Needs, const SceneInMemory&,
+                                                      const SampleJob&);
+extern template void launch_samples<Integrator::bdpt>(CudaExecutor&, Needs, const SceneInMemory&,
+                                                      const SampleJob&);
+extern template void launch_samples<Integrator::light>(CudaExecutor&, Needs, const SceneInMemory&,
+                                                       const SampleJob&);
+
+namespace {
+
+/// Says why, where there is none.
+struct UsableDevice {
+    UsableDevice()
+    {
+        if (const Device device = find_device(); !device.usable)
+            throw std::runtime_error(device.description);
+    }
+};
+
+/// What a renderer on a GPU consists of; the order matters.
+struct DeviceParts {
+    UsableDevice device;
+    Stream stream;
+    DeviceMemory memory{stream.get()};
+    CudaExecutor executor{stream.get()};
+};
+
+/// Launches of about a million samples keep a large GPU busy; small ones come first, and where memory
+/// for the light vertices of so many is not to be had, they stay small.
+LaunchSize launch_size(const scenes::Scene& scene, const RenderOptions& options)
+{
+    constexpr std::size_t most_bytes = std::size_t{4} << 30;
+    std::uint32_t most = 1u << 20;
+    if (options.integrator == Integrator::bdpt) {
+        const int capacity = most_light_vertices(scene_arrays(scene, options.roulette),
+                                                 std::min(options.max_edges, most_edges));
+        while (most > 1024 &&
+               most * sizeof(LightVertex) * static_cast<std::size_t>(capacity) > most_bytes)
+            most /= 2;
+    }
+    return {std::min(most, 1u << 15), most};
+}
+
+class DeviceRenderer : private DeviceParts, public BatchRenderer<CudaExecutor> {
+public:
+    DeviceRenderer(const scenes::Scene& scene, int width, int height, const RenderOptions& options)
+        : BatchRenderer(memory, executor, launch_size(scene, options), scene, width, height, options)
+    {}
+};
+
+} // namespace
+
+std::unique_ptr<Renderer> device_renderer(const scenes::Scene& scene, int width, int height,
+                                          const RenderOptions& options)
+{
+    return std::make_unique<DeviceRenderer>(scene, width, height, options);
+}
+
+} // namespace gpu

@@ -1,0 +1,16 @@
+// What stands for device_renderer.cu where there is no nvcc.
+
+#include "cuda/device.h"
+#include "cuda/transport/renderer.h"
+
+#include <stdexcept>
+
+namespace gpu {
+
+std::unique_ptr<Renderer> device_renderer(const scenes::Scene& /*scene*/, int /*width*/, int /*height*/,
+                                          const RenderOptions& /*options*/)
+{
+    throw std::runtime_error(find_device().description);
+}
+
+} // namespace gpu

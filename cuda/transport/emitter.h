@@ -1,0 +1,227 @@
+#pragma once
+
+// Where light comes from: choosing an emitter, drawing light for a point (next event) and the beginning
+// of light walks. Densities are those of the reference; each is per area on a surface unless its name
+// says otherwise.
+
+#include "cuda/transport/scene_view.h"
+#include "cuda/transport/surface_point.h"
+
+namespace gpu {
+
+/// The number of the emitter that `u` in [0, 1) falls on: the first whose sum exceeds u. Emitters of no
+/// power are never chosen. There must be one that has some.
+template <Needs needs>
+HD std::uint32_t choose_emitter(const SceneView<needs>& scene, float u)
+{
+    const float target = u * scene.cumulative.back();
+    std::uint32_t first = 0;
+    auto last = static_cast<std::uint32_t>(scene.cumulative.size()) - 1;
+    while (first < last) {
+        const std::uint32_t middle = (first + last) / 2;
+        if (scene.cumulative[middle] > target)
+            last = middle;
+        else
+            first = middle + 1;
+    }
+    return first;
+}
+
+/// Whether the eye walk can run into the emitter, and a pinhole see it.
+template <Needs needs>
+HD bool can_be_hit(const Emitter& emitter)
+{
+    if constexpr (!needs.other_lights) return true;
+    return emitter.kind == EmitterKind::triangle || emitter.kind == EmitterKind::sphere ||
+           emitter.kind == EmitterKind::environment;
+}
+
+/// Whether the emitter is infinitely far away.
+template <Needs needs>
+HD bool at_infinity(const Emitter& emitter)
+{
+    if constexpr (!needs.other_lights) return false;
+    return emitter.kind == EmitterKind::directional || emitter.kind == EmitterKind::environment;
+}
+
+/// Whether the emitter is a surface.
+template <Needs needs>
+HD bool is_surface(const Emitter& emitter)
+{
+    if constexpr (!needs.other_lights) return true;
+    return emitter.kind == EmitterKind::triangle || emitter.kind == EmitterKind::sphere;
+}
+
+/// A uniform point on an emitter that is a surface.
+template <Needs needs>
+HD SurfacePoint sample_surface(const SceneView<needs>& scene, const Emitter& emitter, float u1, float u2)
+{
+    if constexpr (needs.spheres && needs.other_lights)
+        if (emitter.kind == EmitterKind::sphere)
+            return sphere_point(scene, emitter.index, sample_sphere(u1, u2));
+    float b1 = 0;
+    float b2 = 0;
+    sample_triangle(u1, u2, b1, b2);
+    return triangle_point(scene, emitter.index, b1, b2);
+}
+
+/// Intensity towards the unit direction `w`, as a fraction of that along the axis.
+HD inline float spot_falloff(const Light& spot, const Vec3& w)
+{
+    const float cosine = glm::dot(spot.direction, w);
+    if (cosine <= spot.cos_cutoff) return 0.0f;
+    if (spot.exponent == 0.0f) return 1.0f;
+    return cosine > 0.0f ? std::pow(cosine, spot.exponent) : 0.0f;
+}
+
+/// Directions of a spot light are uniform in its cone.
+HD inline float pdf_solid_angle_cone(const Light& spot)
+{
+    return 1.0f / (2.0f * pi * (1.0f - spot.cos_cutoff));
+}
+
+/// With which the emitter and the point y_0 are drawn: per area on a surface, per solid angle for the
+/// environment, a probability for an emitter that is certain once it is chosen.
+template <Needs needs>
+HD float pdf_emission_position(const Emitter& emitter)
+{
+    if (is_surface<needs>(emitter))
+        return emitter.area > 0.0f ? emitter.probability / emitter.area : 0.0f;
+    return emitter.kind == EmitterKind::environment ? emitter.probability * pdf_solid_angle_sphere
+                                                    : emitter.probability;
+}
+
+/// The start of a walk from infinity is a uniform point of a disc that covers the scene.
+template <Needs needs>
+HD float pdf_area_disc(const SceneView<needs>& scene)
+{
+    return inverse_pi / (scene.radius * scene.radius);
+}
+
+/// Light that may reach a point `from`, and all that the weights need of it.
+struct IncidentLight {
+    std::uint32_t emitter;
+    Vec3 wi;            // unit, from the point towards the light
+    Rgb alpha;          // emitted towards the point, cosine at the light over squared distance
+                        // included, over pdf_position
+    float geometry;     // turns a density per solid angle at `from` into one at y_0: cosine at the light
+                        // over squared distance; 1 at infinity
+    float pdf_position; // of y_0
+    float pdf_direction; // with which a light walk at y_0 goes towards `from`: per solid angle, and to
+                         // be multiplied by `spread` times the cosine at `from`
+    float spread;        // one over squared distance; 1 at infinity
+    SurfacePoint end;    // of a surface
+    Vec3 target;         // where the segment to be tested ends, unless at infinity
+};
+
+/// Draws light for `from` by the first three numbers of `u`. False if there is none to come from there.
+template <Needs needs>
+HD bool sample_incident(const SceneView<needs>& scene, const Vec3& from, const Uniforms& u,
+                        IncidentLight& light)
+{
+    light.emitter = choose_emitter(scene, u[0]);
+    const Emitter& emitter = scene.emitters[light.emitter];
+    light.pdf_position = pdf_emission_position<needs>(emitter);
+    if (is_surface<needs>(emitter)) {
+        light.end = sample_surface(scene, emitter, u[1], u[2]);
+        const Vec3 d = light.end.position - from;
+        const float distance2 = glm::dot(d, d);
+        light.spread = 1.0f / distance2;
+        light.wi = d * std::sqrt(light.spread);
+        const float cosine = -glm::dot(light.end.normal, light.wi);
+        if (!(cosine > 0.0f) || !(light.pdf_position > 0.0f)) return false; // the dark side
+        light.geometry = cosine * light.spread;
+        light.pdf_direction = cosine * inverse_pi;
+        light.alpha = emitter.emitted * (light.geometry / light.pdf_position);
+        light.target = leave_surface(light.end, -light.wi);
+        return true;
+    }
+    if constexpr (needs.other_lights) {
+        const Light& source = scene.lights[light.emitter];
+        light.geometry = 1.0f;
+        light.spread = 1.0f;
+        light.alpha = emitter.emitted / light.pdf_position;
+        if (emitter.kind == EmitterKind::environment) {
+            light.wi = sample_sphere(u[1], u[2]);
+            light.pdf_direction = pdf_area_disc(scene);
+        } else if (emitter.kind == EmitterKind::directional) {
+            light.wi = -source.direction;
+            light.pdf_direction = pdf_area_disc(scene);
+        } else {
+            const Vec3 d = source.position - from;
+            light.spread = 1.0f / glm::dot(d, d);
+            light.wi = d * std::sqrt(light.spread);
+            light.target = source.position;
+            light.alpha *= light.spread;
+            light.pdf_direction = pdf_solid_angle_sphere;
+            if (emitter.kind == EmitterKind::spot) {
+                light.alpha *= spot_falloff(source, -light.wi);
+                light.pdf_direction = pdf_solid_angle_cone(source);
+            }
+        }
+    }
+    return !is_black(light.alpha);
+}
+
+/// The beginning of a light walk.
+struct SampledEmission {
+    std::uint32_t emitter;
+    Ray ray;             // from y_0, or from far outside, into the scene
+    Rgb alpha;           // weight of the vertex that the ray will find
+    float pdf_direction; // of the ray: per solid angle, or per area across it from infinity
+    SurfacePoint end;    // y_0, of a surface
+    Vec3 towards;        // of one at infinity: the unit direction from the scene to it
+};
+
+/// Draws an emitter and a point of it by the first three numbers of `position`, a direction by the first
+/// two of `direction`. An emitter at infinity first draws its direction, then a point of a disc that
+/// covers the scene.
+template <Needs needs>
+HD SampledEmission sample_emission(const SceneView<needs>& scene, const Uniforms& position,
+                                   const Uniforms& direction)
+{
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    SampledEmission emission{};
+    emission.emitter = choose_emitter(scene, position[0]);
+    const Emitter& emitter = scene.emitters[emission.emitter];
+    if (is_surface<needs>(emitter)) {
+        emission.end = sample_surface(scene, emitter, position[1], position[2]);
+        const Vec3 w_local = sample_cosine_hemisphere(direction[0], direction[1]);
+        const Vec3 w = glm::normalize(Frame(emission.end.normal).to_world(w_local));
+        emission.ray = {leave_surface(emission.end, w), infinity, w};
+        emission.pdf_direction = glm::max(0.0f, glm::dot(emission.end.normal, w)) * inverse_pi;
+        // L cos / (p_A cos / pi)
+        emission.alpha = emitter.emitted * (pi * emitter.area / emitter.probability);
+        return emission;
+    }
+    if constexpr (needs.other_lights) {
+        const Light& light = scene.lights[emission.emitter];
+        if (at_infinity<needs>(emitter)) {
+            const bool everywhere = emitter.kind == EmitterKind::environment;
+            emission.towards = everywhere ? sample_sphere(position[1], position[2]) : -light.direction;
+            const Frame frame(emission.towards);
+            Vec3 disc(0.0f, 0.0f, 2.0f);
+            on_circle(std::sqrt(direction[0]), direction[1], disc.x, disc.y);
+            emission.ray = {scene.radius * frame.to_world(disc), infinity, -emission.towards};
+            emission.pdf_direction = pdf_area_disc(scene);
+        } else {
+            Vec3 w = sample_sphere(direction[0], direction[1]);
+            emission.pdf_direction = pdf_solid_angle_sphere;
+            emission.alpha = emitter.emitted;
+            if (emitter.kind == EmitterKind::spot) {
+                const float below = direction[0] * (1.0f - light.cos_cutoff); // 1 - cos(theta)
+                Vec3 w_local(0.0f, 0.0f, 1.0f - below);
+                on_circle(std::sqrt(below * (2.0f - below)), direction[1], w_local.x, w_local.y);
+                w = glm::normalize(Frame(light.direction).to_world(w_local));
+                emission.pdf_direction = pdf_solid_angle_cone(light);
+                emission.alpha *= spot_falloff(light, w);
+            }
+            emission.ray = {light.position, infinity, w};
+        }
+        emission.alpha = (at_infinity<needs>(emitter) ? emitter.emitted : emission.alpha) /
+                         (pdf_emission_position<needs>(emitter) * emission.pdf_direction);
+    }
+    return emission;
+}
+
+} // namespace gpu

@@ -1,0 +1,23 @@
+#pragma once
+
+// What a scene can do without. A kernel is compiled once for each combination, and what a scene does not
+// have costs its kernels nothing: no branch, no register.
+
+namespace gpu {
+
+/// A template argument of whatever depends on it. Triangles and Lambertian surfaces are always there.
+struct Needs {
+    bool spheres;      // besides triangles
+    bool specular;     // mirrors or glass
+    bool other_lights; // emitters other than triangles
+    friend constexpr bool operator==(const Needs&, const Needs&) = default;
+};
+
+/// Path tracing and light tracing are bidirectional path tracing with some strategies left out.
+enum class Integrator {
+    path, // emission hits and next events, weighted against each other alone
+    bdpt, // all strategies
+    light // the light image alone, with weight 1
+};
+
+} // namespace gpu

@@ -1,0 +1,52 @@
+#pragma once
+
+// Random numbers as a function: Philox4x32-10 [Salmon et al. 2011], from the Random123 library. The same
+// counter blocks as the reference's (key: seed; counter: pixel, sample, event and vertex, 0), so that a
+// sample takes the same decisions here as there.
+
+#include "cuda/parallel/host_device.h"
+
+#include <Random123/philox.h>
+
+#include <cstdint>
+
+namespace gpu {
+
+/// What a block of random numbers decides, numbered like the reference's.
+enum class Event : std::uint32_t {
+    camera,             // position within the pixel (2)
+    emission_position,  // emitter, point on it (3)
+    emission_direction, // direction from it (2)
+    eye_bounce,         // direction (2), lobe, roulette, at eye vertex j
+    light_bounce,       // the same at light vertex j
+    next_event,         // emitter, point on it (3), for eye vertex j
+};
+
+/// Four numbers in [0, 1): the highest 24 bits of each word, which a float holds exactly. They are less
+/// than 2^-24 below those that the reference makes of all 32 bits.
+struct Uniforms {
+    float u[4];
+    HD float operator[](int i) const { return u[i]; }
+};
+
+/// Identifies one sample of one pixel of one picture.
+struct SampleId {
+    std::uint64_t seed;
+    std::uint32_t pixel; // y * width + x
+    std::uint32_t sample;
+};
+
+/// The random numbers of `event` at vertex `j` (0 <= j < 2^24; 0 for events that have no vertex).
+HD inline Uniforms uniforms(const SampleId& id, Event event, std::uint32_t j = 0)
+{
+    const philox4x32_key_t key = {
+        {static_cast<std::uint32_t>(id.seed), static_cast<std::uint32_t>(id.seed >> 32)}};
+    const philox4x32_ctr_t counter = {
+        {id.pixel, id.sample, static_cast<std::uint32_t>(event) << 24 | j, 0}};
+    const philox4x32_ctr_t words = philox4x32(counter, key);
+    Uniforms result{};
+    for (int i = 0; i < 4; ++i) result.u[i] = static_cast<float>(words.v[i] >> 8) * 0x1p-24f;
+    return result;
+}
+
+} // namespace gpu

@@ -1,0 +1,205 @@
+#include "cuda/transport/scene_arrays.h"
+
+#include "cuda/trees/scene_geometry.h"
+#include "scenes/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gpu {
+
+namespace {
+
+Material material_of(const scenes::Material& source, bool roulette)
+{
+    Material result{};
+    double albedo = 0;
+    const auto largest = [](const scenes::Rgb& c) { return std::max({c.x, c.y, c.z}); };
+    if (const auto* lambertian = std::get_if<scenes::Lambertian>(&source)) {
+        result.kind = MaterialKind::lambertian;
+        result.color = Rgb(lambertian->albedo);
+        albedo = largest(lambertian->albedo);
+    } else if (const auto* mirror = std::get_if<scenes::Mirror>(&source)) {
+        result.kind = MaterialKind::mirror;
+        result.color = Rgb(mirror->reflectance);
+        albedo = largest(mirror->reflectance);
+    } else if (const auto* glass = std::get_if<scenes::Glass>(&source)) {
+        result.kind = MaterialKind::glass;
+        result.color = Rgb(glass->reflectance);
+        result.transmittance = Rgb(glass->transmittance);
+        result.ior = static_cast<float>(glass->ior);
+        albedo = std::max(largest(glass->reflectance), largest(glass->transmittance));
+    } else {
+        result.kind = MaterialKind::emission;
+        result.color = Rgb(std::get<scenes::Emission>(source).radiance);
+    }
+    // Below 1 even on a perfect mirror: every walk ends.
+    result.survival = roulette ? static_cast<float>(std::min(0.95, albedo)) : 1.0f;
+    return result;
+}
+
+double average(const scenes::Rgb& c)
+{
+    return (c.x + c.y + c.z) / 3.0;
+}
+
+/// Integral of cos^exponent over the cone, which ends at the horizon at the latest unless the lobe is
+/// constant.
+double spot_solid_angle(const scenes::SpotLight& spot)
+{
+    const double c = spot.exponent > 0.0 ? std::max(0.0, spot.cos_cutoff) : spot.cos_cutoff;
+    return 2.0 * std::numbers::pi * (1.0 - std::pow(c, spot.exponent + 1.0)) / (spot.exponent + 1.0);
+}
+
+/// Collects emitters with their power, and shares 1 among them in the end.
+class EmitterList {
+public:
+    explicit EmitterList(SceneArrays& arrays) : arrays_(arrays) {}
+
+    void add(EmitterKind kind, std::size_t index, double area, double power, const scenes::Rgb& emitted,
+             const Light& light = {})
+    {
+        arrays_.emitters.push_back(
+            {kind, static_cast<std::uint32_t>(index), static_cast<float>(area), 0.0f, Rgb(emitted)});
+        arrays_.lights.push_back(light);
+        powers_.push_back(power);
+    }
+    /// The number of the emitter that comes next.
+    [[nodiscard]] std::uint32_t next() const { return static_cast<std::uint32_t>(powers_.size()); }
+    void finish()
+    {
+        double total = 0;
+        for (const double power : powers_) total += power;
+        if (!(total > 0)) {
+            arrays_.emitters.clear();
+            arrays_.lights.clear();
+            arrays_.has_environment = false;
+            for (Surface& surface : arrays_.surfaces) surface.emitter = no_emitter;
+            return;
+        }
+        double sum = 0;
+        for (std::size_t i = 0; i < powers_.size(); ++i) {
+            sum += powers_[i] / total;
+            arrays_.emitters[i].probability = static_cast<float>(powers_[i] / total);
+            arrays_.cumulative.push_back(static_cast<float>(sum));
+        }
+    }
+
+private:
+    SceneArrays& arrays_;
+    std::vector<double> powers_;
+};
+
+/// In the order of the reference, so that the same number chooses the same emitter.
+void add_emitters(SceneArrays& arrays, const scenes::Scene& scene, double radius)
+{
+    EmitterList list(arrays);
+    const auto emission = [&](std::uint32_t material) {
+        return std::get_if<scenes::Emission>(&scene.materials[material]);
+    };
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i)
+        if (const auto* emits = emission(scene.triangles[i].material)) {
+            const auto& v = scene.triangles[i].vertices;
+            const double area = glm::length(glm::cross(v[1] - v[0], v[2] - v[0])) / 2.0;
+            arrays.surfaces[i].emitter = list.next();
+            list.add(EmitterKind::triangle, i, area, std::numbers::pi * area * average(emits->radiance),
+                     emits->radiance);
+        }
+    for (std::size_t i = 0; i < scene.spheres.size(); ++i)
+        if (const auto* emits = emission(scene.spheres[i].material)) {
+            const std::size_t primitive = scene.triangles.size() + i;
+            const double area =
+                4.0 * std::numbers::pi * scene.spheres[i].radius * scene.spheres[i].radius;
+            arrays.surfaces[primitive].emitter = list.next();
+            list.add(EmitterKind::sphere, primitive, area,
+                     std::numbers::pi * area * average(emits->radiance), emits->radiance);
+        }
+    for (std::size_t i = 0; i < scene.point_lights.size(); ++i) {
+        const auto& light = scene.point_lights[i];
+        list.add(EmitterKind::point, i, 0, 4.0 * std::numbers::pi * average(light.intensity),
+                 light.intensity, {Vec3(light.position - arrays.origin), Vec3(0.0f), 0, 0});
+    }
+    for (std::size_t i = 0; i < scene.spot_lights.size(); ++i) {
+        const auto& light = scene.spot_lights[i];
+        list.add(EmitterKind::spot, i, 0, spot_solid_angle(light) * average(light.intensity),
+                 light.intensity,
+                 {Vec3(light.position - arrays.origin), Vec3(light.direction),
+                  static_cast<float>(light.cos_cutoff), static_cast<float>(light.exponent)});
+    }
+    // What comes from infinity counts as far as it falls on a sphere around the scene.
+    const double disc = std::numbers::pi * radius * radius;
+    for (std::size_t i = 0; i < scene.directional_lights.size(); ++i) {
+        const auto& light = scene.directional_lights[i];
+        list.add(EmitterKind::directional, i, 0, disc * average(light.irradiance), light.irradiance,
+                 {Vec3(0.0f), Vec3(light.direction), 0, 0});
+    }
+    arrays.has_environment = scene.environment.has_value();
+    if (scene.environment)
+        list.add(EmitterKind::environment, 0, 0,
+                 4.0 * std::numbers::pi * disc * average(*scene.environment), *scene.environment);
+    list.finish();
+}
+
+} // namespace
+
+SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
+{
+    SceneArrays arrays;
+    double radius = 0;
+    if (const auto box = scenes::bounds(scene)) {
+        arrays.origin = (box->min + box->max) / 2.0;
+        radius = glm::length(box->max - box->min) / 2.0;
+    }
+    arrays.radius = static_cast<float>(radius);
+    arrays.diagonal = static_cast<float>(2.0 * radius);
+    arrays.triangles = triangles_of(scene, arrays.origin);
+    arrays.spheres = spheres_of(scene, arrays.origin);
+    for (const scenes::Material& material : scene.materials)
+        arrays.materials.push_back(material_of(material, roulette));
+    for (std::uint32_t i = 0; i < scenes::primitive_count(scene); ++i) {
+        const std::uint32_t material = scenes::material_of(scene, i);
+        arrays.surfaces.push_back({material, no_emitter});
+        if (arrays.materials[material].kind != MaterialKind::emission)
+            arrays.largest_survival =
+                std::max(arrays.largest_survival, arrays.materials[material].survival);
+    }
+    add_emitters(arrays, scene, radius);
+    return arrays;
+}
+
+Camera camera_of(const scenes::Scene& scene, const glm::dvec3& origin, int width, int height)
+{
+    const scenes::Camera& source = scene.camera.value();
+    const int across = source.fov_axis == scenes::FovAxis::horizontal ? width : height;
+    const double pixel_size = 2.0 * std::tan(source.fov / 2.0) / across;
+    return {Vec3(source.eye - origin),
+            Vec3(source.right),
+            Vec3(source.up),
+            Vec3(source.backward),
+            static_cast<float>(pixel_size),
+            static_cast<float>(width * pixel_size * height * pixel_size),
+            static_cast<std::uint32_t>(width),
+            static_cast<std::uint32_t>(height)};
+}
+
+Needs needs_of(const SceneArrays& arrays)
+{
+    Needs needs{!arrays.spheres.empty(), false, false};
+    for (const Surface& surface : arrays.surfaces) {
+        const MaterialKind kind = arrays.materials[surface.material].kind;
+        needs.specular = needs.specular || kind == MaterialKind::mirror || kind == MaterialKind::glass;
+    }
+    for (const Emitter& emitter : arrays.emitters)
+        needs.other_lights = needs.other_lights || emitter.kind != EmitterKind::triangle;
+    return needs;
+}
+
+int most_light_vertices(const SceneArrays& arrays, int max_edges)
+{
+    const double survival = arrays.largest_survival;
+    if (!(survival < 1.0)) return max_edges;
+    const double bounces = survival > 0.0 ? std::ceil(24.0 * std::log(2.0) / -std::log(survival)) : 0.0;
+    return static_cast<int>(std::min<double>(max_edges, bounces_without_roulette + 1 + bounces));
+}
+
+} // namespace gpu

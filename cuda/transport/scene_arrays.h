@@ -1,0 +1,43 @@
+#pragma once
+
+// A scene's data in single precision, on the host: what scene_view.h shows to kernels.
+
+#include "cuda/transport/scene_view.h"
+#include "scenes/scene.h"
+
+#include <vector>
+
+namespace gpu {
+
+struct SceneArrays {
+    glm::dvec3 origin; // centre of the scene, in the file's coordinates: 0 here
+    std::vector<Triangle> triangles;
+    std::vector<Sphere> spheres;
+    std::vector<Surface> surfaces; // by primitive, numbered as by scenes::primitive_count
+    std::vector<Material> materials;
+    std::vector<Emitter> emitters; // none if no emitter has power
+    std::vector<float> cumulative;
+    std::vector<Light> lights; // by emitter
+    bool has_environment = false;
+    float radius = 0;
+    float diagonal = 0;
+    float largest_survival = 0; // of all materials of surfaces: what a walk's length is bounded by
+};
+
+/// `scene` as arrays. With no `roulette` every material lets every walk go on. All sums are formed in
+/// double, and rounded once.
+SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette);
+
+/// The scene's camera for pictures of `width` x `height` pixels; the scene must have one.
+Camera camera_of(const scenes::Scene& scene, const glm::dvec3& origin, int width, int height);
+
+/// What kernels for the scene must be able to do. Finer than scenes::requirements says where a
+/// distinction costs a kernel more than it saves (docs/cuda-bdpt.md has the measurements).
+Needs needs_of(const SceneArrays& arrays);
+
+/// How many vertices of a light walk need room. No walk is longer than `max_edges` allows; and where
+/// roulette ends walks, longer ones than this are rarer than 2^-24, which is the resolution of the
+/// uniform numbers that decide about them.
+int most_light_vertices(const SceneArrays& arrays, int max_edges);
+
+} // namespace gpu

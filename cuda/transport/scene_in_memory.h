@@ -1,0 +1,55 @@
+#pragma once
+
+// A scene in the memory that kernels work on.
+
+#include "cuda/parallel/buffer.h"
+#include "cuda/transport/scene_arrays.h"
+#include "cuda/trees/surfaces.h"
+
+namespace gpu {
+
+class SceneInMemory {
+public:
+    template <Executor E>
+    SceneInMemory(Memory& memory, E& executor, const SceneArrays& arrays, const Camera& camera)
+        : geometry_(memory, executor, arrays.triangles, arrays.spheres),
+          triangles_(memory, std::span(arrays.triangles)), spheres_(memory, std::span(arrays.spheres)),
+          surfaces_(memory, std::span(arrays.surfaces)), materials_(memory, std::span(arrays.materials)),
+          emitters_(memory, std::span(arrays.emitters)),
+          cumulative_(memory, std::span(arrays.cumulative)), lights_(memory, std::span(arrays.lights)),
+          has_environment_(arrays.has_environment), radius_(arrays.radius), diagonal_(arrays.diagonal),
+          camera_(camera)
+    {}
+
+    template <Needs needs>
+    [[nodiscard]] SceneView<needs> view() const
+    {
+        return {geometry_.view<needs.spheres>(),
+                triangles_.all(),
+                spheres_.all(),
+                surfaces_.all(),
+                materials_.all(),
+                emitters_.all(),
+                cumulative_.all(),
+                lights_.all(),
+                has_environment_,
+                radius_,
+                diagonal_,
+                camera_};
+    }
+
+private:
+    SurfaceTree geometry_;
+    Buffer<Triangle> triangles_;
+    Buffer<Sphere> spheres_;
+    Buffer<Surface> surfaces_;
+    Buffer<Material> materials_;
+    Buffer<Emitter> emitters_;
+    Buffer<float> cumulative_;
+    Buffer<Light> lights_;
+    bool has_environment_;
+    float radius_, diagonal_;
+    Camera camera_;
+};
+
+} // namespace gpu

@@ -1,0 +1,72 @@
+#pragma once
+
+// A scene as kernels see it: spans into arrays, one array for each thing that is read together. All
+// positions are relative to the centre of the scene, from which they were subtracted in double: a scene
+// far from the origin loses no digits.
+
+#include "cuda/transport/camera.h"
+#include "cuda/transport/material.h"
+#include "cuda/transport/needs.h"
+#include "cuda/trees/surfaces.h"
+
+namespace gpu {
+
+enum class EmitterKind : std::uint32_t { triangle, sphere, point, directional, spot, environment };
+
+constexpr std::uint32_t no_emitter = 0xffff'ffff;
+
+/// One emitter: the `index`-th of its kind; of triangles and spheres, the primitive.
+struct Emitter {
+    EmitterKind kind;
+    std::uint32_t index;
+    float area;        // m^2; 0 where there is no surface
+    float probability; // of being chosen: its share of the power of all emitters
+    Rgb emitted;       // radiance; intensity of point and spot; irradiance of a directional light
+};
+
+/// A light of no extent, or at infinity.
+struct Light {
+    Vec3 position;  // of point and spot
+    Vec3 direction; // unit: in which it travels, or the spot's axis
+    float cos_cutoff, exponent;
+};
+
+/// What shading must know of a primitive.
+struct Surface {
+    std::uint32_t material;
+    std::uint32_t emitter; // or no_emitter
+};
+
+template <Needs needs>
+struct SceneView {
+    Surfaces<needs.spheres> geometry;
+    std::span<const Triangle> triangles; // by primitive
+    std::span<const Sphere> spheres;     // by primitive, less the triangles
+    std::span<const Surface> surfaces;   // by primitive
+    std::span<const Material> materials;
+    std::span<const Emitter> emitters; // the environment is the last
+    std::span<const float> cumulative; // of their probabilities
+    std::span<const Light> lights;     // by emitter: its light, if it is one
+    bool has_environment;
+    float radius;   // of a sphere around all geometry, the centre of which is the origin
+    float diagonal; // of the box around all geometry
+    Camera camera;
+};
+
+/// A point on a surface.
+struct SurfacePoint {
+    Vec3 position;
+    Vec3 normal;     // unit, geometric: by winding for a triangle, outward for a sphere
+    float clearance; // how far from the surface, along the normal, rays must begin (clearance.h)
+    std::uint32_t primitive;
+};
+
+/// `point.position` moved off the surface to the side that `direction` points to, just so far that a ray
+/// from there cannot meet the surface again.
+HD inline Vec3 leave_surface(const SurfacePoint& point, const Vec3& direction)
+{
+    const bool behind = glm::dot(direction, point.normal) < 0.0f;
+    return point.position + (behind ? -point.clearance : point.clearance) * point.normal;
+}
+
+} // namespace gpu

@@ -1,0 +1,56 @@
+#pragma once
+
+// From what a ray hit, or a sample drew, to a point on a surface.
+
+#include "cuda/transport/scene_view.h"
+#include "cuda/trees/clearance.h"
+
+namespace gpu {
+
+/// The point of triangle number `triangle` with weights b1, b2 of its second and third vertex.
+template <Needs needs>
+HD SurfacePoint triangle_point(const SceneView<needs>& scene, std::uint32_t triangle, float b1, float b2)
+{
+    const auto& v = scene.triangles[triangle].vertices;
+    const Vec3 e1 = v[1] - v[0];
+    const Vec3 e2 = v[2] - v[0];
+    SurfacePoint point{};
+    point.primitive = triangle;
+    point.position = v[0] + (b1 * e1 + b2 * e2);
+    point.normal = glm::normalize(glm::cross(e1, e2));
+    point.clearance = glm::dot(glm::abs(point.normal),
+                               triangle_point_error(point.position, b1, e1, b2, e2, scene.diagonal));
+    return point;
+}
+
+/// The point of sphere number `sphere` (the first is 0 after the triangles) in `direction` (any length)
+/// from its centre.
+template <Needs needs>
+HD SurfacePoint sphere_point(const SceneView<needs>& scene, std::uint32_t primitive,
+                             const Vec3& direction)
+{
+    const Sphere& sphere = scene.spheres[primitive - static_cast<std::uint32_t>(scene.triangles.size())];
+    SurfacePoint point{};
+    point.primitive = primitive;
+    point.normal = glm::normalize(direction);
+    point.position = sphere.center + sphere.radius * point.normal;
+    point.clearance = glm::dot(glm::abs(point.normal), sphere_point_error(point.position, sphere.radius,
+                                                                          point.normal, scene.diagonal));
+    return point;
+}
+
+/// The surface at `hit`, which `ray` found.
+template <Needs needs>
+HD SurfacePoint surface_point(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
+{
+    if constexpr (needs.spheres) {
+        const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
+        if (hit.primitive >= triangles)
+            return sphere_point(scene, hit.primitive,
+                                ray.origin + hit.t * ray.direction -
+                                    scene.spheres[hit.primitive - triangles].center);
+    }
+    return triangle_point(scene, hit.primitive, hit.b1, hit.b2);
+}
+
+} // namespace gpu
