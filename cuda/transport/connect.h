@@ -115,7 +115,9 @@ HD int light_subpath(const SceneView<needs>& scene, const PathOptions& options, 
     const Leg leg{emission.ray, on_surface ? emission.end.position : emission.ray.origin, infinite,
                   emission.pdf_direction, hittable ? cosine / own : 0.0f};
     int count = 0;
-    const int most_vertices = glm::min(options.max_edges, kept.capacity + 1);
+    const int most_vertices = integrator == Integrator::bdpt
+                                  ? glm::min(options.max_edges, kept.capacity + 1)
+                                  : options.max_edges;
     walk(
         scene, options, id, Transport::power, leg, hittable, emission.alpha, most_vertices,
         [&](const WalkVertex& y) {
@@ -191,6 +193,7 @@ template <Needs needs, class Sink>
 HD void inner_connection(const SceneView<needs>& scene, const PathOptions& options, int s,
                          const LightVertex& y, const EyeVertex& z, Sink& sink)
 {
+    if (is_black(y.alpha)) return; // then nothing else of y was ever written
     const Vec3 d = y.position - z.point.position;
     const float spread = 1.0f / glm::dot(d, d);
     const float length = std::sqrt(spread);

@@ -4,73 +4,32 @@
 // The short version spends a few seconds per scene and says what error of the whole picture it could
 // have seen; PLUMBLINE_LONG=1 takes as many batches as it takes to see half a percent.
 
-#include "golden/report.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 #include "tests/image/judged.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <set>
 #include <string>
-#include <vector>
 
 namespace {
 
 namespace fs = std::filesystem;
 using image_test::golden_of;
 using image_test::Judged;
-using image_test::scene_of;
+using image_test::scenes_with_goldens;
 using image_test::source;
-
-bool is_long()
-{
-    const char* value = std::getenv("PLUMBLINE_LONG");
-    return value != nullptr && std::string(value) == "1";
-}
-
-/// The first stage is what every run costs, the other is for a suspicion. Fewer than some 20 batches
-/// could not convict anyone: the ranks of so few say too little.
-golden::CompareOptions options()
-{
-    golden::CompareOptions options;
-    if (is_long()) return options;
-    options.stages = {32, 128};
-    options.specification = 0.04;
-    return options;
-}
-
-std::vector<std::string> scenes_with_goldens()
-{
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(source / "golden/renders"))
-        if (entry.path().extension() == ".exr") names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
+using image_test::with_report;
 
 Judged judge(const std::string& name, const char* estimator, ref::Integrator integrator,
              golden::Method method)
 {
-    Judged judged = image_test::judged(name, integrator, estimator, method, options());
-    std::cout << name << ", " << estimator << ", seed " << judged.metadata.at("seed") << ": "
-              << describe(judged.comparison.verdict) << ". " << judged.comparison.reason
-              << " Conclusive: " << 100.0 * judged.comparison.coverage << "% of the tests.\n";
+    Judged judged = image_test::judged(name, integrator, estimator, method, image_test::short_options());
+    image_test::print(name, estimator, judged);
     return judged;
-}
-
-std::string with_report(const std::string& name, const char* estimator, const Judged& judged)
-{
-    const fs::path report = fs::path(PLUMBLINE_REPORTS) / (name + "_" + estimator + ".html");
-    fs::create_directories(report.parent_path());
-    golden::write_report(report, {name + " by " + estimator + " against its golden", judged.comparison,
-                                  judged.golden, judged.mean, judged.metadata});
-    return judged.comparison.reason + "\nThe report: " + report.string();
 }
 
 class Golden : public testing::TestWithParam<std::string> {};
