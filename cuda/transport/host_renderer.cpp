@@ -1,20 +1,15 @@
-#include "cuda/parallel/threaded_executor.h"
 #include "cuda/transport/batch_renderer.h"
+#include "cuda/transport/host_kernels.h"
 
 namespace gpu {
-
-// In host_path.cpp and its like.
-extern template void launch_samples<Integrator::path>(ThreadedExecutor&, Needs, const SceneInMemory&,
-                                                      const SampleJob&);
-extern template void launch_samples<Integrator::bdpt>(ThreadedExecutor&, Needs, const SceneInMemory&,
-                                                      const SampleJob&);
-extern template void launch_samples<Integrator::light>(ThreadedExecutor&, Needs, const SceneInMemory&,
-                                                       const SampleJob&);
 
 namespace {
 
 /// Blocks of so few neighbours that no thread waits long for another at the end of a launch.
 constexpr std::uint32_t most_per_block = 32;
+
+/// Always as many samples at once: so that on one thread even sums of floats are the same every time.
+constexpr std::uint32_t launch = 8192;
 
 /// What a renderer on the host consists of; the order matters.
 struct HostParts {
@@ -28,7 +23,7 @@ public:
     HostRenderer(const scenes::Scene& scene, int width, int height, const RenderOptions& options,
                  unsigned threads)
         : HostParts(threads),
-          BatchRenderer(memory, executor, LaunchSize(1024, 16384), scene, width, height, options)
+          BatchRenderer(memory, executor, LaunchSize(launch, launch), scene, width, height, options)
     {}
 };
 
