@@ -164,7 +164,7 @@ TEST(BatchRenderer, UnweightedLayersHoldWhatEachStrategyFound)
 TEST(BatchRenderer, StopsBetweenLaunchesAndGoesOnAsIfNothingHadBeen)
 {
     const auto renderer =
-        gpu::host_renderer(scene_named("cornell_diffuse"), 64, 64, short_paths(Integrator::bdpt), 1);
+        gpu::host_renderer(scene_named("cornell_diffuse"), 100, 100, short_paths(Integrator::bdpt), 1);
     const golden::Image whole = renderer->render_batch(2, {})->mean;
     int asked = 0;
     std::vector<double> parts;
