@@ -78,7 +78,7 @@ private:
                   const SceneArrays& arrays, int width, int height, const RenderOptions& options)
         : executor_(executor), launch_size_(launch_size), options_(checked(options)), width_(width),
           height_(height), pixels_(static_cast<std::uint32_t>(width * height)), needs_(needs_of(arrays)),
-          scene_(memory, executor, arrays, camera_of(scene, arrays.origin, width, height)),
+          scene_(memory, executor, arrays, camera_of(scene, arrays.place, width, height)),
           capacity_(options.integrator == Integrator::bdpt
                         ? most_light_vertices(arrays, options_.max_edges)
                         : 0),

@@ -1,6 +1,5 @@
 #include "cuda/transport/scene_arrays.h"
 
-#include "cuda/trees/scene_geometry.h"
 #include "scenes/bounds.h"
 
 #include <algorithm>
@@ -94,13 +93,17 @@ private:
 void add_emitters(SceneArrays& arrays, const scenes::Scene& scene, double radius)
 {
     EmitterList list(arrays);
+    // Intensities are measured by the square of a length.
+    const double square = arrays.place.scale * arrays.place.scale;
     const auto emission = [&](std::uint32_t material) {
         return std::get_if<scenes::Emission>(&scene.materials[material]);
     };
     for (std::size_t i = 0; i < scene.triangles.size(); ++i)
         if (const auto* emits = emission(scene.triangles[i].material)) {
             const auto& v = scene.triangles[i].vertices;
-            const double area = glm::length(glm::cross(v[1] - v[0], v[2] - v[0])) / 2.0;
+            const scenes::Vec3 e1 = arrays.place.scale * (v[1] - v[0]);
+            const scenes::Vec3 e2 = arrays.place.scale * (v[2] - v[0]);
+            const double area = glm::length(glm::cross(e1, e2)) / 2.0;
             arrays.surfaces[i].emitter = list.next();
             list.add(EmitterKind::triangle, i, area, std::numbers::pi * area * average(emits->radiance),
                      emits->radiance);
@@ -108,22 +111,22 @@ void add_emitters(SceneArrays& arrays, const scenes::Scene& scene, double radius
     for (std::size_t i = 0; i < scene.spheres.size(); ++i)
         if (const auto* emits = emission(scene.spheres[i].material)) {
             const std::size_t primitive = scene.triangles.size() + i;
-            const double area =
-                4.0 * std::numbers::pi * scene.spheres[i].radius * scene.spheres[i].radius;
+            const double radius_here = arrays.place.scale * scene.spheres[i].radius;
+            const double area = 4.0 * std::numbers::pi * radius_here * radius_here;
             arrays.surfaces[primitive].emitter = list.next();
             list.add(EmitterKind::sphere, primitive, area,
                      std::numbers::pi * area * average(emits->radiance), emits->radiance);
         }
     for (std::size_t i = 0; i < scene.point_lights.size(); ++i) {
         const auto& light = scene.point_lights[i];
-        list.add(EmitterKind::point, i, 0, 4.0 * std::numbers::pi * average(light.intensity),
-                 light.intensity, {Vec3(light.position - arrays.origin), Vec3(0.0f), 0, 0});
+        list.add(EmitterKind::point, i, 0, square * 4.0 * std::numbers::pi * average(light.intensity),
+                 square * light.intensity, {arrays.place(light.position), Vec3(0.0f), 0, 0});
     }
     for (std::size_t i = 0; i < scene.spot_lights.size(); ++i) {
         const auto& light = scene.spot_lights[i];
-        list.add(EmitterKind::spot, i, 0, spot_solid_angle(light) * average(light.intensity),
-                 light.intensity,
-                 {Vec3(light.position - arrays.origin), Vec3(light.direction),
+        list.add(EmitterKind::spot, i, 0, square * spot_solid_angle(light) * average(light.intensity),
+                 square * light.intensity,
+                 {arrays.place(light.position), Vec3(light.direction),
                   static_cast<float>(light.cos_cutoff), static_cast<float>(light.exponent)});
     }
     // What comes from infinity counts as far as it falls on a sphere around the scene.
@@ -147,13 +150,17 @@ SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
     SceneArrays arrays;
     double radius = 0;
     if (const auto box = scenes::bounds(scene)) {
-        arrays.origin = (box->min + box->max) / 2.0;
-        radius = glm::length(box->max - box->min) / 2.0;
+        arrays.place.origin = box->min / 2.0 + box->max / 2.0;
+        const double diameter = glm::length(box->max - box->min);
+        int exponent = 1;
+        if (diameter > 0.0) std::frexp(diameter, &exponent); // diameter = f 2^exponent, 1/2 <= f < 1
+        arrays.place.scale = std::ldexp(1.0, 1 - exponent);
+        radius = diameter * arrays.place.scale / 2.0;
     }
     arrays.radius = static_cast<float>(radius);
     arrays.diagonal = static_cast<float>(2.0 * radius);
-    arrays.triangles = triangles_of(scene, arrays.origin);
-    arrays.spheres = spheres_of(scene, arrays.origin);
+    arrays.triangles = triangles_of(scene, arrays.place);
+    arrays.spheres = spheres_of(scene, arrays.place);
     for (const scenes::Material& material : scene.materials)
         arrays.materials.push_back(material_of(material, roulette));
     for (std::uint32_t i = 0; i < scenes::primitive_count(scene); ++i) {
@@ -167,12 +174,12 @@ SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
     return arrays;
 }
 
-Camera camera_of(const scenes::Scene& scene, const glm::dvec3& origin, int width, int height)
+Camera camera_of(const scenes::Scene& scene, const Placement& place, int width, int height)
 {
     const scenes::Camera& source = scene.camera.value();
     const int across = source.fov_axis == scenes::FovAxis::horizontal ? width : height;
     const double pixel_size = 2.0 * std::tan(source.fov / 2.0) / across;
-    return {Vec3(source.eye - origin),
+    return {place(source.eye),
             Vec3(source.right),
             Vec3(source.up),
             Vec3(source.backward),

@@ -3,6 +3,7 @@
 // A scene's data in single precision, on the host: what scene_view.h shows to kernels.
 
 #include "cuda/transport/scene_view.h"
+#include "cuda/trees/scene_geometry.h"
 #include "scenes/scene.h"
 
 #include <vector>
@@ -10,7 +11,10 @@
 namespace gpu {
 
 struct SceneArrays {
-    glm::dvec3 origin; // centre of the scene, in the file's coordinates: 0 here
+    /// The centre of the scene becomes the origin, and its diameter a number from 1 to 2, by a power of
+    /// two: lengths that could be too large or too small for floats to square are not, and scaling a
+    /// scene by a power of two changes no bit. Radiance is the same at any scale.
+    Placement place;
     std::vector<Triangle> triangles;
     std::vector<Sphere> spheres;
     std::vector<Surface> surfaces; // by primitive, numbered as by scenes::primitive_count
@@ -29,7 +33,7 @@ struct SceneArrays {
 SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette);
 
 /// The scene's camera for pictures of `width` x `height` pixels; the scene must have one.
-Camera camera_of(const scenes::Scene& scene, const glm::dvec3& origin, int width, int height);
+Camera camera_of(const scenes::Scene& scene, const Placement& place, int width, int height);
 
 /// What kernels for the scene must be able to do. Finer than scenes::requirements says where a
 /// distinction costs a kernel more than it saves (docs/cuda-bdpt.md has the measurements).

@@ -1,8 +1,8 @@
 #pragma once
 
-// A scene as kernels see it: spans into arrays, one array for each thing that is read together. All
-// positions are relative to the centre of the scene, from which they were subtracted in double: a scene
-// far from the origin loses no digits.
+// A scene as kernels see it: spans into arrays, one array for each thing that is read together. Lengths
+// are not the file's: the scene's centre is the origin and its diameter is between 1 and 2
+// (scene_arrays.h).
 
 #include "cuda/transport/camera.h"
 #include "cuda/transport/material.h"

@@ -7,6 +7,15 @@
 
 namespace gpu {
 
+/// (v1 - v0) x (v2 - v0) to unit length, whose square may be too small for a float. Any unit vector
+/// where there is no such direction.
+HD inline Vec3 unit_normal(const Vec3& e1, const Vec3& e2)
+{
+    const Vec3 across = glm::cross(e1, e2);
+    const float size = max_component(glm::abs(across));
+    return size > 0.0f ? glm::normalize(across / size) : Vec3(0.0f, 0.0f, 1.0f);
+}
+
 /// The point of triangle number `triangle` with weights b1, b2 of its second and third vertex.
 template <Needs needs>
 HD SurfacePoint triangle_point(const SceneView<needs>& scene, std::uint32_t triangle, float b1, float b2)
@@ -17,7 +26,7 @@ HD SurfacePoint triangle_point(const SceneView<needs>& scene, std::uint32_t tria
     SurfacePoint point{};
     point.primitive = triangle;
     point.position = v[0] + (b1 * e1 + b2 * e2);
-    point.normal = glm::normalize(glm::cross(e1, e2));
+    point.normal = unit_normal(e1, e2);
     point.clearance = glm::dot(glm::abs(point.normal),
                                triangle_point_error(point.position, b1, e1, b2, e2, scene.diagonal));
     return point;

@@ -199,9 +199,9 @@ TEST(SceneGeometry, FarFromTheOriginLosesNothingIfTheOriginIsNear)
     near_scene.spheres = {{ref::Vec3(0.25, 0.5, -1), 0.75, 0}};
     scenes::Scene far_scene = scene_of(moved(mesh, 1, far));
     far_scene.spheres = {{near_scene.spheres[0].center + far, 0.75, 0}};
-    const auto triangles = gpu::triangles_of(far_scene, far);
-    const auto spheres = gpu::spheres_of(far_scene, far);
-    const auto boxes = gpu::boxes_of(far_scene, far);
+    const auto triangles = gpu::triangles_of(far_scene, {far});
+    const auto spheres = gpu::spheres_of(far_scene, {far});
+    const auto boxes = gpu::boxes_of(far_scene, {far});
     ASSERT_EQ(triangles.size(), near_scene.triangles.size());
     ASSERT_EQ(boxes.size(), scenes::primitive_count(near_scene));
     for (std::size_t i = 0; i < triangles.size(); ++i)
