@@ -1,8 +1,10 @@
 #include "cli/candidate.h"
 
+#include "cli/fast_render.h"
 #include "cli/golden.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
+#include "cuda/transport/renderer.h"
 #include "golden/image_error.h"
 #include "golden/pfm.h"
 
@@ -56,6 +58,7 @@ Judged judge_scene(const golden::Golden& golden, const std::string& file,
     RenderCommand command = render_of(golden, file);
     if (!options.integrator.empty()) command.integrator = options.integrator;
     command.threads = options.threads;
+    command.device = options.device;
     const std::uint64_t seed = options.seed.value_or(std::random_device()());
     const scenes::Scene scene = load_scene(file, command.frame, options.quiet);
     command.seed = seed;
@@ -64,7 +67,8 @@ Judged judge_scene(const golden::Golden& golden, const std::string& file,
         same_estimator(metadata, golden.metadata) ? golden::Method::ranks : golden::Method::welch;
     golden::check_comparable(golden, metadata, method);
     const Size size = parse_size(command.size);
-    const ref::World world(scene, size.width, size.height);
+    std::optional<ref::World> world;
+    if (command.device == "ref") world.emplace(scene, size.width, size.height);
     golden::Image mean;
     const auto render = [&](std::size_t stage, std::uint64_t batches, golden::Candidate& candidate) {
         command.seed = seed + stage;
@@ -72,9 +76,11 @@ Judged judge_scene(const golden::Golden& golden, const std::string& file,
         Progress progress(scene.name + ", stage " + std::to_string(stage + 1), 0.0,
                           static_cast<double>(batches), options.quiet);
         const ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
+        const auto fast = world ? nullptr : fast_renderer(command, scene);
         for (std::uint64_t i = 0; i < batches; ++i) {
-            const auto batch =
-                ref::render_batch(world, integrator_of(command), render_options(command), i, monitor);
+            const auto batch = fast ? render_batch(*fast, command, i, monitor)
+                                    : ref::render_batch(*world, integrator_of(command),
+                                                        render_options(command), i, monitor);
             if (!batch) throw Interrupted();
             candidate.add_batch(*batch);
         }
@@ -113,8 +119,9 @@ Judged judge(const golden::Golden& golden, const std::vector<std::string>& files
              const CandidateOptions& options)
 {
     const bool scene = fs::path(files.front()).extension() == ".dae";
-    if (!scene && (!options.integrator.empty() || options.seed))
-        throw std::invalid_argument("--integrator and --seed are for a scene that is rendered here");
+    if (!scene && (!options.integrator.empty() || options.seed || options.device != "ref"))
+        throw std::invalid_argument(
+            "--integrator, --device and --seed are for a scene that is rendered here");
     if (scene && files.size() > 1) throw std::invalid_argument(files[1] + ": a scene is judged alone");
     if (options.samples && (scene || files.size() > 1))
         throw std::invalid_argument("--samples is for a single picture");

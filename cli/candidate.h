@@ -16,6 +16,7 @@ namespace cli {
 struct CandidateOptions {
     std::optional<double> samples;     // per pixel, of a single picture
     std::string integrator;            // of a scene; empty: the golden's
+    std::string device = "ref";        // that renders a scene
     std::optional<std::uint64_t> seed; // of a scene; none: another one every time
     unsigned threads = std::max(1U, std::thread::hardware_concurrency());
     bool quiet = false;

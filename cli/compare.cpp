@@ -122,6 +122,11 @@ void add_compare_command(CLI::App& program, Work& work)
         ->add_option("--integrator", options->candidate.integrator,
                      "Of a scene that is rendered here: path, bdpt or light [the golden's]")
         ->check(CLI::IsMember({"path", "bdpt", "light"}));
+    command
+        ->add_option("--device", options->candidate.device,
+                     "That renders a scene here: ref, or the fast path on host or cuda")
+        ->check(CLI::IsMember({"ref", "host", "cuda"}).description(""))
+        ->capture_default_str();
     command->add_option("--seed", options->candidate.seed,
                         "Of a scene that is rendered here [another one every time]");
     command->add_option("-t,--threads", options->candidate.threads, "Threads")

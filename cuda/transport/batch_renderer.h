@@ -77,7 +77,8 @@ private:
     BatchRenderer(Memory& memory, E& executor, LaunchSize launch_size, const scenes::Scene& scene,
                   const SceneArrays& arrays, int width, int height, const RenderOptions& options)
         : executor_(executor), launch_size_(launch_size), options_(checked(options)), width_(width),
-          height_(height), pixels_(static_cast<std::uint32_t>(width * height)), needs_(needs_of(arrays)),
+          height_(height), pixels_(static_cast<std::uint32_t>(width * height)),
+          needs_(needs_of(arrays) | options.at_least),
           scene_(memory, executor, arrays, camera_of(scene, arrays.place, width, height)),
           capacity_(options.integrator == Integrator::bdpt
                         ? most_light_vertices(arrays, options_.max_edges)

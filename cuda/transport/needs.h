@@ -10,6 +10,10 @@ struct Needs {
     bool spheres;      // besides triangles
     bool specular;     // mirrors or glass
     bool other_lights; // emitters other than triangles
+    friend constexpr Needs operator|(const Needs& a, const Needs& b)
+    {
+        return {a.spheres || b.spheres, a.specular || b.specular, a.other_lights || b.other_lights};
+    }
     friend constexpr bool operator==(const Needs&, const Needs&) = default;
 };
 

@@ -32,6 +32,7 @@ struct RenderOptions {
     bool roulette = true;
     std::uint32_t batch_size = 4; // samples per pixel of a batch
     bool deterministic = false;   // splats are summed exactly, so that no bit depends on threads
+    Needs at_least = {};          // kernels that can do this besides: to measure what it costs
     Layers layers = Layers::none; // a picture per strategy: max_edges is at most most_edges_of_layers
 };
 

@@ -6,6 +6,7 @@
 // Writes a table of docs/bdpt.md to stdout. 96 x 64 pixels, at most 6 edges, one thread; the camera of
 // scenes after --frame is moved back to where it sees everything.
 
+#include "docs/figures/measure.h"
 #include "golden/image.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/connect.h"
@@ -19,7 +20,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <stdexcept>
 #include <string_view>
@@ -33,13 +33,6 @@ constexpr int max_edges = 6;
 constexpr double seconds_each = 0.5;      // CPU time of every rendering that is judged
 constexpr double seconds_reference = 6.0; // of the bidirectional one that they are judged against
 
-double cpu_now()
-{
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 struct Timed {
     golden::Image image;
     double samples;
@@ -50,32 +43,13 @@ struct Timed {
 Timed render_for(const ref::World& world, ref::Integrator integrator, std::uint64_t seed, double seconds)
 {
     golden::Film film(width, height);
-    const double start = cpu_now();
+    const double start = figures::cpu_seconds();
     double kept = 0.0;
     ref::render(world, integrator, {{.seed = seed, .max_edges = max_edges}, 1U << 20, 1, 1}, film,
                 {{},
-                 [&] { return kept > 0.0 && cpu_now() - start > seconds; },
-                 [&](const golden::Film&) { kept = cpu_now() - start; }});
+                 [&] { return kept > 0.0 && figures::cpu_seconds() - start > seconds; },
+                 [&](const golden::Film&) { kept = figures::cpu_seconds() - start; }});
     return {film.mean(), static_cast<double>(film.batches()) * width * height, kept};
-}
-
-/// Mean over pixels and channels of (image - reference)^2 / (reference^2 + 1e-4 m^2), m the mean of the
-/// reference: black pixels must not divide by zero.
-double relative_mean_square_error(const golden::Image& image, const golden::Image& reference)
-{
-    golden::Rgb mean(0.0);
-    for (const auto& pixel : reference.pixels)
-        mean += pixel / static_cast<double>(reference.pixels.size());
-    const double m = (mean.x + mean.y + mean.z) / 3.0;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const golden::Rgb d = image.pixels[i] - reference.pixels[i];
-        const golden::Rgb r = reference.pixels[i];
-        sum += (d.x * d.x / (r.x * r.x + 1e-4 * m * m) + d.y * d.y / (r.y * r.y + 1e-4 * m * m) +
-                d.z * d.z / (r.z * r.z + 1e-4 * m * m)) /
-               3.0;
-    }
-    return sum / static_cast<double>(image.pixels.size());
 }
 
 /// Shares of the time of bidirectional samples: walks, then the four families.
@@ -151,7 +125,7 @@ void judge(const char* file, bool framed)
         const bool blind = integrator == ref::trace_light && !light_tracing_sees_everything(scene);
         // The error of independent samples is inverse to the time: after one second of it.
         std::printf(" %.0fk | %.2g%s |", timed.samples / timed.seconds / 1000.0,
-                    relative_mean_square_error(timed.image, reference.image) * timed.seconds,
+                    figures::relative_mean_square_error(timed.image, reference.image) * timed.seconds,
                     blind ? " *" : "");
     }
     for (const double share : shares_of_time(world)) std::printf(" %.0f%% |", 100.0 * share);

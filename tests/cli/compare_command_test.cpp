@@ -77,6 +77,13 @@ TEST_F(CompareCommand, ASceneIsRenderedHereByAnyIntegrator)
     }
 }
 
+TEST_F(CompareCommand, ASceneIsRenderedHereByTheFastPath)
+{
+    const Outcome outcome =
+        compare({scene_file("directional_over_plane")}, {"--device", "host", "--seed", "7"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+}
+
 TEST_F(CompareCommand, SeveralIndependentPicturesPass)
 {
     Arguments files;
@@ -170,6 +177,7 @@ TEST_F(CompareCommand, WhatCannotBeComparedIsSaidInOneLine)
         {{"compare", plain, golden_file}, "give -s"},
         {{"compare", plain, golden_file, "-s", "0"}, "--samples"},
         {{"compare", plain, golden_file, "-s", "256", "--integrator", "path"}, "--integrator"},
+        {{"compare", plain, golden_file, "-s", "256", "--device", "host"}, "--device"},
         {{"compare", plain, plain, golden_file, "-s", "256"}, "--samples"},
         {{"compare", other_size, golden_file}, "8x8"},
         {{"compare", other_scene, golden_file}, "scene"},
