@@ -9,8 +9,11 @@
 
 namespace gpu {
 
+constexpr std::uint32_t block_size = 256;
+
+/// Two blocks fit on a multiprocessor at least: no kernel may take more than 128 registers.
 template <Kernel K>
-__global__ void run_kernel(K kernel, std::uint32_t count)
+__global__ void __launch_bounds__(block_size, 2) run_kernel(K kernel, std::uint32_t count)
 {
     const std::uint32_t index = blockIdx.x * blockDim.x + threadIdx.x;
     if (index < count) kernel(index);
@@ -25,7 +28,6 @@ public:
     void operator()(std::uint32_t count, const K& kernel) const
     {
         if (count == 0) return; // CUDA calls a grid without blocks an error
-        constexpr std::uint32_t block_size = 256;
         run_kernel<<<(count - 1) / block_size + 1, block_size, 0, stream_>>>(kernel, count);
         check(cudaGetLastError());
     }
