@@ -11,13 +11,25 @@
 
 namespace gpu {
 
+/// How many samples a launch may take, and how much memory their light vertices.
+struct LaunchLimits {
+    std::uint32_t least, most;
+    std::size_t most_bytes;
+};
+
 /// How many samples a launch takes. A GPU that also drives a screen ends kernels that run for some
 /// seconds, and nobody wants to wait long for Ctrl-C; but short launches leave processors idle at their
 /// ends. So launches grow and shrink between limits until one takes about as long as it should. No
-/// picture depends on it.
+/// sum depends on it but that of splats as floats.
 class LaunchSize {
 public:
-    LaunchSize(std::uint32_t least, std::uint32_t most) : least_(least), most_(most), size_(least) {}
+    /// `bytes`: what one sample keeps.
+    LaunchSize(LaunchLimits limits, std::size_t bytes) : least_(limits.least), most_(limits.most)
+    {
+        while (most_ > 1 && most_ * bytes > limits.most_bytes) most_ /= 2;
+        least_ = std::min(least_, most_);
+        size_ = least_;
+    }
     [[nodiscard]] std::uint32_t get() const { return size_; }
     [[nodiscard]] std::uint32_t most() const { return most_; }
     void took(std::chrono::duration<double> time)
@@ -35,10 +47,10 @@ private:
 template <Executor E>
 class BatchRenderer : public Renderer {
 public:
-    BatchRenderer(Memory& memory, E& executor, LaunchSize launch_size, const scenes::Scene& scene,
+    BatchRenderer(Memory& memory, E& executor, const LaunchLimits& limits, const scenes::Scene& scene,
                   int width, int height, const RenderOptions& options)
-        : BatchRenderer(memory, executor, launch_size, scene, scene_arrays(scene, options.roulette),
-                        width, height, options)
+        : BatchRenderer(memory, executor, limits, scene, scene_arrays(scene, options.roulette), width,
+                        height, options)
     {}
 
     std::optional<Batch> render_batch(std::uint64_t number, const Monitor& monitor) override
@@ -74,17 +86,18 @@ public:
     }
 
 private:
-    BatchRenderer(Memory& memory, E& executor, LaunchSize launch_size, const scenes::Scene& scene,
+    BatchRenderer(Memory& memory, E& executor, const LaunchLimits& limits, const scenes::Scene& scene,
                   const SceneArrays& arrays, int width, int height, const RenderOptions& options)
-        : executor_(executor), launch_size_(launch_size), options_(checked(options)), width_(width),
-          height_(height), pixels_(static_cast<std::uint32_t>(width * height)),
+        : executor_(executor), options_(checked(options)), width_(width), height_(height),
+          pixels_(static_cast<std::uint32_t>(width * height)),
           needs_(needs_of(arrays) | options.at_least),
           scene_(memory, executor, arrays, camera_of(scene, arrays.place, width, height)),
-          capacity_(options.integrator == Integrator::bdpt
+          capacity_(options_.integrator == Integrator::bdpt
                         ? most_light_vertices(arrays, options_.max_edges)
                         : 0),
-          own_(memory, launch_size.most()),
-          kept_(memory, static_cast<std::size_t>(capacity_) * launch_size.most()),
+          launch_size_(limits, static_cast<std::size_t>(capacity_) * sizeof(LightVertex)),
+          own_(memory, launch_size_.most()),
+          kept_(memory, static_cast<std::size_t>(capacity_) * launch_size_.most()),
           sums_(memory, pixels_),
           splats_(memory, options.deterministic ? 0 : splat_pictures() * pixels_),
           exact_(memory, options.deterministic ? 3 * splat_pictures() * pixels_ : 0),
@@ -179,13 +192,13 @@ private:
     }
 
     E& executor_;
-    LaunchSize launch_size_;
     RenderOptions options_;
     int width_, height_;
     std::uint32_t pixels_;
     Needs needs_;
     SceneInMemory scene_;
     int capacity_; // of the light vertices of a sample
+    LaunchSize launch_size_;
     Buffer<Rgb> own_;
     Buffer<LightVertex> kept_;
     Buffer<Rgb> sums_;

@@ -34,26 +34,13 @@ struct DeviceParts {
     CudaExecutor executor{stream.get()};
 };
 
-/// Launches of about a million samples keep a large GPU busy; small ones come first, and where memory
-/// for the light vertices of so many is not to be had, they stay small.
-LaunchSize launch_size(const scenes::Scene& scene, const RenderOptions& options)
-{
-    constexpr std::size_t most_bytes = std::size_t{4} << 30;
-    std::uint32_t most = 1u << 20;
-    if (options.integrator == Integrator::bdpt) {
-        const int capacity = most_light_vertices(scene_arrays(scene, options.roulette),
-                                                 std::min(options.max_edges, most_edges));
-        while (most > 1024 &&
-               most * sizeof(LightVertex) * static_cast<std::size_t>(capacity) > most_bytes)
-            most /= 2;
-    }
-    return {std::min(most, 1u << 15), most};
-}
+/// About a million samples keep a large GPU busy.
+constexpr LaunchLimits limits{1u << 15, 1u << 20, std::size_t{4} << 30};
 
 class DeviceRenderer : private DeviceParts, public BatchRenderer<CudaExecutor> {
 public:
     DeviceRenderer(const scenes::Scene& scene, int width, int height, const RenderOptions& options)
-        : BatchRenderer(memory, executor, launch_size(scene, options), scene, width, height, options)
+        : BatchRenderer(memory, executor, limits, scene, width, height, options)
     {}
 };
 

@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint32_t most_per_block = 32;
 
 /// Always as many samples at once: so that on one thread even sums of floats are the same every time.
-constexpr std::uint32_t launch = 8192;
+constexpr LaunchLimits limits{8192, 8192, std::size_t{1} << 30};
 
 /// What a renderer on the host consists of; the order matters.
 struct HostParts {
@@ -22,8 +22,7 @@ class HostRenderer : private HostParts, public BatchRenderer<ThreadedExecutor> {
 public:
     HostRenderer(const scenes::Scene& scene, int width, int height, const RenderOptions& options,
                  unsigned threads)
-        : HostParts(threads),
-          BatchRenderer(memory, executor, LaunchSize(launch, launch), scene, width, height, options)
+        : HostParts(threads), BatchRenderer(memory, executor, limits, scene, width, height, options)
     {}
 };
 

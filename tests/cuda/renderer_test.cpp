@@ -44,9 +44,26 @@ golden::Image batch_of(const scenes::Scene& scene, const gpu::RenderOptions& opt
 {
     gpu::HostMemory memory;
     gpu::ThreadedExecutor executor(threads, 1);
-    gpu::BatchRenderer renderer(memory, executor, gpu::LaunchSize(launch, launch), scene, width, height,
-                                options);
+    gpu::BatchRenderer renderer(memory, executor, {launch, launch, std::size_t{1} << 30}, scene, width,
+                                height, options);
     return renderer.render_batch(number, {})->mean;
+}
+
+TEST(LaunchSize, GrowsAndShrinksBetweenItsLimits)
+{
+    using std::chrono::milliseconds;
+    gpu::LaunchSize size({64, 256, 1 << 20}, 64);
+    EXPECT_EQ(size.get(), 64u);
+    for (int i = 0; i < 5; ++i) size.took(milliseconds(1));
+    EXPECT_EQ(size.get(), 256u);
+    size.took(milliseconds(60));
+    EXPECT_EQ(size.get(), 256u);
+    for (int i = 0; i < 5; ++i) size.took(milliseconds(500));
+    EXPECT_EQ(size.get(), 64u);
+    // What does not fit in memory at once is done in turn, a single sample at the least.
+    EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 100).most(), 8u);
+    EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 100).get(), 8u);
+    EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 5000).most(), 1u);
 }
 
 RC_GTEST_PROP(BatchRenderer, DeterministicBitsDependOnNothingButTheSamples, ())
