@@ -53,71 +53,57 @@ HD void walk(const SceneView<needs>& scene, const PathOptions& options, const Sa
              const OnSurface& on_surface, const OnMiss& on_miss)
 {
     const Event event = carried == Transport::radiance ? Event::eye_bounce : Event::light_bounce;
-    bool previous_joinable =
-        true; // the ends of a path can be joined: the eye, and y_0 to what it shines on
+    bool previous_joinable = true; // the eye; and y_0 to what it shines on
     bool joinable = other_can_start;
     float other = 0.0f;
     float survival = 1.0f;
     RunningSums sums(false, 0.0f, 0.0f);
     for (int n = 1; n < most_vertices && !is_black(alpha); ++n) {
+        const auto carry_sums = [&](float back, float own) {
+            if (n == 1)
+                sums = RunningSums(joinable, back, own);
+            else
+                sums.advance(joinable, other, survival, back, own, options.heuristic);
+        };
         const Hit hit = closest_hit(scene.geometry, leg.ray);
         if (hit.primitive == no_primitive) {
-            if (n == 1)
-                sums = RunningSums(joinable, leg.cosine_over_own, leg.pdf);
-            else
-                sums.advance(joinable, other, survival, leg.cosine_over_own, leg.pdf, options.heuristic);
+            carry_sums(leg.cosine_over_own, leg.pdf);
             on_miss(leg, n, alpha, previous_joinable, sums);
             return;
         }
-        WalkVertex v{surface_point(scene, leg.ray, hit),
-                     -leg.ray.direction,
-                     Vec3(0.0f),
-                     0.0f,
-                     Material{},
-                     0,
-                     n,
-                     alpha,
-                     previous_joinable,
-                     0.0f,
-                     sums};
-        const Surface surface = scene.surfaces[v.point.primitive];
-        v.material = scene.materials[surface.material];
-        v.emitter = surface.emitter;
-        const Frame frame(v.point.normal);
-        const Vec3 wo_local = frame.to_local(v.wo);
-        v.cosine = std::abs(wo_local.z);
-        v.facing = wo_local.z < 0.0f ? -v.point.normal : v.point.normal;
+        const SurfacePoint point = surface_point(scene, leg.ray, hit);
+        const Surface surface = scene.surfaces[point.primitive];
+        const Material material = scene.materials[surface.material];
+        const Frame frame(point.normal);
+        const Vec3 wo = -leg.ray.direction;
+        const Vec3 wo_local = frame.to_local(wo);
+        const float cosine = std::abs(wo_local.z);
 
         // [Veach 1997, eq. 8.10]
-        const Vec3 d = v.point.position - leg.from;
+        const Vec3 d = point.position - leg.from;
         const float spread = leg.from_infinity ? 1.0f : 1.0f / glm::dot(d, d);
-        v.own = leg.pdf * v.cosine * spread;
-        if (!(v.own > 0.0f)) return; // in the very plane of the surface: no path of any density
-        if (n == 1)
-            v.sums = RunningSums(joinable, leg.cosine_over_own * spread, v.own);
-        else
-            v.sums.advance(joinable, other, survival, leg.cosine_over_own * spread, v.own,
-                           options.heuristic);
-        sums = v.sums;
-        on_surface(v);
+        const float own = leg.pdf * cosine * spread;
+        if (!(own > 0.0f)) return; // in the very plane of the surface: no path of any density
+        carry_sums(leg.cosine_over_own * spread, own);
+        on_surface(WalkVertex{point, wo, wo_local.z < 0.0f ? -point.normal : point.normal, cosine,
+                              material, surface.emitter, n, alpha, previous_joinable, own, sums});
         if (n + 1 == most_vertices) return;
 
         const Uniforms u = uniforms(id, event, static_cast<std::uint32_t>(n));
-        const BsdfSample sample = sample_bsdf<needs.specular>(v.material, wo_local, u, carried);
-        survival = v.material.survival;
+        const BsdfSample sample = sample_bsdf<needs.specular>(material, wo_local, u, carried);
+        survival = material.survival;
         const float chance = n > bounces_without_roulette ? survival : 1.0f;
         if (u[3] >= chance) return;
         const Vec3 wi = glm::normalize(frame.to_world(sample.wi_local));
         constexpr float infinity = std::numeric_limits<float>::infinity();
-        const float cosine_over_own = v.own > 0.0f ? std::abs(sample.wi_local.z) / v.own : 0.0f;
-        leg = {{leave_surface(v.point, wi), infinity, wi},
-               v.point.position,
+        leg = {{leave_surface(point, wi), infinity, wi},
+               point.position,
                false,
                sample.pdf_fwd * chance,
-               cosine_over_own};
+               std::abs(sample.wi_local.z) / own};
         alpha *= sample.value / chance;
-        joinable = previous_joinable && scatters(v.material);
-        previous_joinable = scatters(v.material);
+        joinable = previous_joinable && scatters(material);
+        previous_joinable = scatters(material);
         other = sample.pdf_rev;
     }
 }
