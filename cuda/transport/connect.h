@@ -10,7 +10,7 @@
 //   s >= 1, t = 1       light_image: a light vertex seen from the eye; falls on any pixel
 //   s >= 2, t >= 2      inner_connection: an eye vertex and a light vertex
 
-#include "cuda/transport/subpath.h"
+#include "cuda/transport/watch.h"
 
 namespace gpu {
 
@@ -95,9 +95,10 @@ template <Needs needs, Integrator integrator, class Sink>
 HD int light_subpath(const SceneView<needs>& scene, const PathOptions& options, const SampleId& id,
                      const LightVertices& kept, Sink& sink)
 {
-    if (scene.emitters.empty()) return 0;
+    if (scene.cumulative.empty()) return 0;
     const SampledEmission emission = sample_emission(scene, uniforms(id, Event::emission_position),
                                                      uniforms(id, Event::emission_direction));
+    show_emission(sink, emission);
     const Emitter emitter = scene.emitters[emission.emitter];
     const float own = pdf_emission_position<needs>(emitter);
     const bool infinite = at_infinity<needs>(emitter);
@@ -121,6 +122,7 @@ HD int light_subpath(const SceneView<needs>& scene, const PathOptions& options, 
     walk(
         scene, options, id, Transport::power, leg, hittable, emission.alpha, most_vertices,
         [&](const WalkVertex& y) {
+            show_vertex(sink, Transport::power, y);
             if constexpr (integrator == Integrator::bdpt) ++count;
             if (!scatters(y.material)) {
                 if constexpr (integrator == Integrator::bdpt) kept[y.n - 1].alpha = Rgb(0.0f);
@@ -145,7 +147,9 @@ HD int light_subpath(const SceneView<needs>& scene, const PathOptions& options, 
                                  {without_last_factor(2), without_last_factor(3), without_last_factor(4),
                                   without_last_factor(5)}};
         },
-        [](const Leg&, int, const Rgb&, bool, const RunningSums&) {});
+        [&](const Leg& last, int, const Rgb&, bool, const RunningSums&) {
+            show_miss(sink, Transport::power, last);
+        });
     return count;
 }
 
@@ -247,10 +251,11 @@ HD void eye_subpath(const SceneView<needs>& scene, const PathOptions& options, c
     walk(
         scene, options, id, Transport::radiance, leg, false, Rgb(1.0f), options.max_edges + 1,
         [&](const WalkVertex& v) {
+            show_vertex(sink, Transport::radiance, v);
             if (v.emitter != no_emitter && glm::dot(v.point.normal, v.wo) > 0.0f)
                 emission_hit(scene.emitters[v.emitter], v.n, v.alpha, v.own, v.cosine * inverse_pi,
                              v.previous_joinable, v.sums);
-            if (!scatters(v.material) || v.n == options.max_edges || scene.emitters.empty()) return;
+            if (!scatters(v.material) || v.n == options.max_edges || scene.cumulative.empty()) return;
             EyeVertex z{v.n + 1,
                         v.point,
                         v.facing,
@@ -269,6 +274,7 @@ HD void eye_subpath(const SceneView<needs>& scene, const PathOptions& options, c
                     inner_connection(scene, options, s, kept[s - 2], z, sink);
         },
         [&](const Leg& last, int n, const Rgb& alpha, bool previous_joinable, const RunningSums& sums) {
+            show_miss(sink, Transport::radiance, last);
             if (scene.has_environment)
                 emission_hit(scene.emitters.back(), n, alpha, last.pdf, pdf_area_disc(scene),
                              previous_joinable, sums);

@@ -70,9 +70,7 @@ public:
         double total = 0;
         for (const double power : powers_) total += power;
         if (!(total > 0)) {
-            arrays_.emitters.clear();
-            arrays_.lights.clear();
-            arrays_.has_environment = false;
+            // Nothing can be chosen; but a sky over no surfaces, on which nothing of it falls, is seen.
             for (Surface& surface : arrays_.surfaces) surface.emitter = no_emitter;
             return;
         }
@@ -157,7 +155,7 @@ SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
         arrays.place.scale = std::ldexp(1.0, 1 - exponent);
         radius = diameter * arrays.place.scale / 2.0;
     }
-    arrays.radius = static_cast<float>(radius);
+    arrays.radius = radius > 0.0 ? static_cast<float>(radius) : 1.0f; // around nothing, any will do
     arrays.diagonal = static_cast<float>(2.0 * radius);
     arrays.triangles = triangles_of(scene, arrays.place);
     arrays.spheres = spheres_of(scene, arrays.place);

@@ -19,9 +19,9 @@ struct SceneArrays {
     std::vector<Sphere> spheres;
     std::vector<Surface> surfaces; // by primitive, numbered as by scenes::primitive_count
     std::vector<Material> materials;
-    std::vector<Emitter> emitters; // none if no emitter has power
-    std::vector<float> cumulative;
-    std::vector<Light> lights; // by emitter
+    std::vector<Emitter> emitters;
+    std::vector<float> cumulative; // none if no emitter has power
+    std::vector<Light> lights;     // by emitter
     bool has_environment = false;
     float radius = 0;
     float diagonal = 0;

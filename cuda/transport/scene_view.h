@@ -45,7 +45,7 @@ struct SceneView {
     std::span<const Surface> surfaces;   // by primitive
     std::span<const Material> materials;
     std::span<const Emitter> emitters; // the environment is the last
-    std::span<const float> cumulative; // of their probabilities
+    std::span<const float> cumulative; // of their probabilities; none if all are 0
     std::span<const Light> lights;     // by emitter: its light, if it is one
     bool has_environment;
     float radius;   // of a sphere around all geometry, the centre of which is the origin

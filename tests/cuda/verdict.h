@@ -46,8 +46,11 @@ constexpr Verdict impossible{false, false, 0, 0, 0};
 // (see slabs.h), D the largest coordinate of v - o, and is exact for those. The reference does the same
 // with a roundoff that does not count here. So they agree where the ray passes the edges at a greater
 // distance, in barycentric terms 7 u D / height; the factor 4 covers that both ends of an edge move, and
-// the third vertex.
-inline Verdict verdict(const gpu::Ray& ray, const gpu::Triangle& triangle)
+// the third vertex. With `slack`, the ray that was really traced began within so short a distance of
+// this one's origin and passed within that distance of it: across it that is 3 slack after the shear,
+// whose factors are at most 1, and along it 2 slack over the length of the direction, the largest
+// component of which is 0.57 of it.
+inline Verdict verdict(const gpu::Ray& ray, const gpu::Triangle& triangle, double slack = 0)
 {
     constexpr double u = 0x1p-24;
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -68,7 +71,7 @@ inline Verdict verdict(const gpu::Ray& ray, const gpu::Triangle& triangle)
             D = std::max(D, std::abs(vertex[axis] - exact.origin[axis]));
     const double edge = std::max({std::hypot(B.x - A.x, B.y - A.y), std::hypot(C.x - A.x, C.y - A.y),
                                   std::hypot(C.x - B.x, C.y - B.y)});
-    const double margin = 4 * 7 * u * D * edge / std::abs(det);
+    const double margin = 4 * (7 * u * D + 3 * slack) * edge / std::abs(det);
     if (!(margin <= 0.1)) return settled(ray, false, -infinity, infinity);
     if (inside < -margin) return impossible;
     // A change of the weights by `margin` changes t by at most the spread of the vertices' own t,
@@ -76,13 +79,15 @@ inline Verdict verdict(const gpu::Ray& ray, const gpu::Triangle& triangle)
     const double t = (U * A.z + V * B.z + W * C.z) / det;
     const double spread = std::max({A.z, B.z, C.z}) - std::min({A.z, B.z, C.z});
     const double farthest = std::max({std::abs(A.z), std::abs(B.z), std::abs(C.z)});
-    const double t_margin = 3 * margin * spread + 5 * u * farthest;
+    const double t_margin =
+        3 * margin * spread + 5 * u * farthest + 2 * slack / glm::length(exact.direction);
     return settled(ray, inside > margin, t - t_margin, t + t_margin, margin);
 }
 
 // What is found is within 22 u M of the sphere (see sphere.h): it is a hit of one that is larger or
-// smaller by so much. Whether the origin is inside must be as clear.
-inline Verdict verdict(const gpu::Ray& ray, const gpu::Sphere& sphere)
+// smaller by so much. Whether the origin is inside must be as clear. `slack` as above: the sphere might
+// as well be elsewhere by so much.
+inline Verdict verdict(const gpu::Ray& ray, const gpu::Sphere& sphere, double slack = 0)
 {
     const ref::Ray exact = exactly(ray);
     const ref::Vec3 f = exact.origin - ref::Vec3(sphere.center);
@@ -91,7 +96,7 @@ inline Verdict verdict(const gpu::Ray& ray, const gpu::Sphere& sphere)
     const double speed = glm::length(exact.direction);
     const double middle = -glm::dot(f, exact.direction) / (speed * speed);
     const double l = glm::length(f + middle * exact.direction);
-    const double bound = 22 * 0x1p-24 * std::max(F, 2 * r);
+    const double bound = 22 * 0x1p-24 * std::max(F, 2 * r) + slack;
     if (l > r + bound) return impossible;
     const auto half_chord = [&](double radius) {
         return radius > l ? std::sqrt((radius - l) * (radius + l)) / speed : 0.0;

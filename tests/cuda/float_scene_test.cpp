@@ -1,0 +1,62 @@
+#include "tests/cuda/float_scene.h"
+
+#include "cuda/transport/scene_arrays.h"
+#include "scenes/read_scene.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace {
+
+scenes::Scene all_emitters()
+{
+    return scenes::read_scene(std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "scenes/all_emitters.dae");
+}
+
+/// What the paths are compared in is the scene that was asked for: all places seen from the eye are
+/// where they were, at another scale, to within the grid.
+TEST(FloatScene, KeepsEveryPlace)
+{
+    const scenes::Scene scene = all_emitters();
+    const scenes::Scene moved = cuda_test::float_scene(scene);
+    const auto from_eye = [](const scenes::Scene& s) {
+        std::vector<scenes::Vec3> places;
+        const auto add = [&](const scenes::Vec3& x) { places.push_back(x - s.camera->eye); };
+        for (const auto& triangle : s.triangles)
+            for (const scenes::Vec3& v : triangle.vertices) add(v);
+        for (const auto& sphere : s.spheres) add(sphere.center), add(sphere.center + sphere.radius);
+        for (const auto& light : s.point_lights) add(light.position);
+        for (const auto& light : s.spot_lights) add(light.position);
+        return places;
+    };
+    const auto before = from_eye(scene);
+    const auto after = from_eye(moved);
+    ASSERT_EQ(before.size(), after.size());
+    const double scale =
+        std::exp2(std::round(std::log2(glm::length(after[0]) / glm::length(before[0]))));
+    const double grid = 0x1p-20; // of a diagonal between 1 and 2; the eye is as far as that
+    for (std::size_t i = 0; i < before.size(); ++i)
+        EXPECT_LE(glm::length(after[i] - scale * before[i]), grid) << i;
+    ASSERT_FALSE(scene.point_lights.empty() || scene.spot_lights.empty());
+    const double square = scale * scale;
+    EXPECT_NEAR(moved.point_lights[0].intensity.x / scene.point_lights[0].intensity.x, square,
+                1e-6 * square);
+    EXPECT_NEAR(moved.spot_lights[0].intensity.x / scene.spot_lights[0].intensity.x, square,
+                1e-6 * square);
+}
+
+TEST(FloatScene, IsLeftWhereItIs)
+{
+    const scenes::Scene scene = cuda_test::float_scene(all_emitters());
+    const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+    EXPECT_EQ(arrays.place.origin, scenes::Vec3(0));
+    EXPECT_EQ(arrays.place.scale, 1);
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_EQ(scenes::Vec3(arrays.triangles[i].vertices[k]), scene.triangles[i].vertices[k]);
+}
+
+} // namespace

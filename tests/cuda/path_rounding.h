@@ -1,0 +1,98 @@
+#pragma once
+
+// How far a single step of a path in floats may be from the same step in double, both from the same
+// vertex. Let u = 2^-24; counts are of first order in u, and each bound below is rounded up from its
+// count by enough for the second order.
+//
+// 1. A frame around n [Duff et al. 2017]: sign + z rounds once and is at least 1, a errs by 2u
+// relatively,
+//    b = x y a by 4u of at most 1/2, sign x x a by 4u and its sum with 1 by u more: every axis errs by
+//    less than 5.4u.
+// 2. To world space: three products and two sums per coordinate err by 3u (|x| + |y| + |z|) <= 5.2u, the
+//    axes by 5.4u (|x| + |y|) <= 7.7u, the normalisation by 5u: 18u. To the frame: 3u, and 5.4u of the
+//    axes x and y: 8.4u for x and y, 3u for z, 12.3u together.
+// 3. A direction drawn with a cosine: the angle, at most pi, is rounded twice, 6.3u; cosine and sine
+// within
+//    a unit in the last place, product and root 4u more: 11u. In world space 29u. On the sphere, where
+//    the radius carries a root and three products, 13u.
+// 4. Reflected: 12.3u + 18u. Refracted: x and y err by 8.4u eta each, and 2u for eta and its product.
+// The
+//    square of cos_t is 1 - eta^2 (1 - c)(1 + c), c off by 3u: 6u eta^2 of that, and 8u of rounding;
+//    call their sum e. A root of a number that is wrong by e is wrong by e over itself, and never by
+//    more than sqrt(e). Near the critical angle that is all there is to know.
+// 5. A camera ray: the film coordinate is rounded by u of the film's width, its distance from the middle
+//    by half of that, pixel size and product by 2u of it: less than 2.5u of the film's extent along
+//    either axis; the sum of three vectors errs by 3u of their lengths, the normalisation by 5u.
+// 6. A point of a triangle, given its weights: 3u (|e1| + |e2|) + u |p|; of a sphere, given the normal:
+//    6u r + u |p|. Both as in clearance.h. The normal of a triangle: every coordinate of e1 x e2 errs by
+//    4u |e1| |e2|, sqrt(3) times that is less than 7u; over the length of the product, with 5u for the
+//    normalisation. That of a sphere is compared with (p - c) / r.
+// 7. Cosines of two unit vectors err by 3u, and by what their directions do, 5u: 8u together.
+
+#include "ref/transport/bsdf.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cuda_test {
+
+constexpr double roundoff = 0x1p-24;
+
+/// Of a cosine, apart from what is known of its directions [7].
+constexpr double cosine_error = 8 * roundoff;
+/// Of a direction drawn around a normal or axis, or reflected [3, 4].
+constexpr double direction_error = 36 * roundoff;
+
+/// Of a direction refracted from a side with cosine `cos_i` to one with cosine `cos_t` [4].
+inline double refraction_error(double eta, double cos_t)
+{
+    const double e = (6 * eta * eta + 8) * roundoff;
+    return (12 * eta + 24) * roundoff + std::min(e / std::max(cos_t, 1e-30), std::sqrt(e)) + roundoff;
+}
+
+/// Of a contribution's value, relatively, besides its walks' weights and its cosines: squared distance,
+/// densities, colours and their products.
+constexpr double in_product = 16 * roundoff;
+
+/// Of a camera ray; `extent`: width plus height of the film at distance 1 [5].
+inline double camera_direction_error(double extent)
+{
+    return (4 * extent + 10) * roundoff;
+}
+
+/// Of a point of a triangle, whatever its weights [6].
+inline double triangle_point_error(const std::array<ref::Vec3, 3>& v, const ref::Vec3& p)
+{
+    return roundoff * (4 * (glm::length(v[1] - v[0]) + glm::length(v[2] - v[0])) + 2 * glm::length(p));
+}
+
+/// Of a point of a sphere, as a distance from the sphere [6].
+inline double sphere_point_error(double radius, const ref::Vec3& p)
+{
+    return roundoff * (8 * radius + 2 * glm::length(p));
+}
+
+/// Of a triangle's normal [6].
+inline double triangle_normal_error(const std::array<ref::Vec3, 3>& v)
+{
+    const ref::Vec3 e1 = v[1] - v[0];
+    const ref::Vec3 e2 = v[2] - v[0];
+    const double sine = glm::length(glm::cross(e1, e2)) / (glm::length(e1) * glm::length(e2));
+    return (8 / sine + 6) * roundoff;
+}
+
+/// Of the reflectance of glass for the cosine `cos_i`, known to within `error`: what it varies by over
+/// that range, and 16 roundings of its own, all of numbers up to 1.
+inline double fresnel_error(double cos_i, double error, double eta_i, double eta_t)
+{
+    double cos_t = 0;
+    const double middle = ref::fresnel(cos_i, eta_i, eta_t, cos_t);
+    const double below = ref::fresnel(std::max(0.0, cos_i - error), eta_i, eta_t, cos_t);
+    const double above = ref::fresnel(std::min(1.0, cos_i + error), eta_i, eta_t, cos_t);
+    return std::max(std::abs(below - middle), std::abs(above - middle)) + 16 * roundoff;
+}
+
+} // namespace cuda_test

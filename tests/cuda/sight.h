@@ -1,0 +1,26 @@
+#pragma once
+
+// Whether the floats may be right about what sees what, where the reference says otherwise.
+
+#include "tests/cuda/followed_walk.h"
+
+#include <optional>
+
+namespace cuda_test {
+
+/// A segment, or a ray to infinity, that is tested for anything in its way. The floats' may begin and
+/// end elsewhere, within the slacks.
+struct LineOfSight {
+    ref::Vec3 from;
+    double from_slack;
+    ref::Vec3 to; // or the direction
+    double to_slack;
+    bool to_infinity = false;
+    std::optional<std::uint32_t> start = {}, end = {}; // the primitives that it leaves and comes to
+};
+
+/// Nothing, if rounding can explain that the floats say `seen` and the reference the opposite: throws
+/// Undecided then, else Disagreement.
+[[noreturn]] void explain_sight(const ref::World& world, const LineOfSight& line, bool seen);
+
+} // namespace cuda_test

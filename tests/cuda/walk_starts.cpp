@@ -1,0 +1,196 @@
+// How walks begin, and what their vertices must be.
+
+#include "tests/cuda/followed_walk.h"
+#include "tests/cuda/path_rounding.h"
+
+#include "ref/transport/emission.h"
+
+namespace cuda_test {
+
+using ref::Vec3;
+
+void require(bool condition, const char* otherwise)
+{
+    if (!condition) throw Disagreement(otherwise);
+}
+
+ref::Uniforms float_uniforms(const ref::SampleId& id, ref::Event event, std::uint32_t j)
+{
+    ref::Uniforms u = uniforms(id, event, j);
+    for (double& x : u) x = std::floor(x * 0x1p24) * 0x1p-24;
+    return u;
+}
+
+const ref::Emitter& chosen_emitter(const ref::World& world, double u)
+{
+    double sum = 0;
+    for (const ref::Emitter& emitter : world.emitters.all()) {
+        sum += emitter.probability;
+        // The sum as a float and its product with u: two roundings.
+        if (&emitter != &world.emitters.all().back() && std::abs(sum - u) <= 4 * roundoff)
+            throw Undecided("the choice of an emitter");
+    }
+    return *world.emitters.choose(u);
+}
+
+ref::SurfacePoint surface_of(const ref::World& world, const gpu::SurfacePoint& point)
+{
+    ref::SurfacePoint result{};
+    result.position = Vec3(point.position);
+    result.normal = Vec3(point.normal);
+    // So that leave_surface goes as far as the floats do: |n| times this is the clearance.
+    result.error = static_cast<double>(point.clearance) * glm::abs(result.normal);
+    result.primitive = point.primitive;
+    result.material = scenes::material_of(world.scene, point.primitive);
+    return result;
+}
+
+double normal_error(const ref::World& world, const ref::SurfacePoint& point)
+{
+    const std::size_t triangles = world.scene.triangles.size();
+    if (point.primitive < triangles)
+        return triangle_normal_error(world.scene.triangles[point.primitive].vertices);
+    const double radius = world.scene.spheres[point.primitive - triangles].radius;
+    return (8 + 2 * glm::length(point.position) / radius) * roundoff;
+}
+
+void require_on_surface(const ref::World& world, const gpu::SurfacePoint& point)
+{
+    const Vec3 p(point.position);
+    const std::size_t triangles = world.scene.triangles.size();
+    Vec3 normal;
+    double off = 0;
+    double bound = 0;
+    if (point.primitive < triangles) {
+        const auto& v = world.scene.triangles[point.primitive].vertices;
+        normal = glm::normalize(glm::cross(v[1] - v[0], v[2] - v[0]));
+        off = glm::dot(normal, p - v[0]);
+        bound = triangle_point_error(v, p);
+    } else {
+        const auto& sphere = world.scene.spheres[point.primitive - triangles];
+        normal = glm::normalize(p - sphere.center);
+        off = glm::length(p - sphere.center) - sphere.radius;
+        bound = sphere_point_error(sphere.radius, p);
+    }
+    require(std::abs(off) <= bound, "a vertex is off its surface");
+    require(glm::length(Vec3(point.normal) - normal) <= normal_error(world, surface_of(world, point)),
+            "a normal");
+    // clearance.h: at least 16 u D, at most 32 u D for the ray and 13 u D for the point, along each of
+    // three coordinates of a unit vector, D the diagonal of the scene.
+    const double D = world.geometry.diagonal();
+    require(point.clearance >= 15.9 * roundoff * D && point.clearance <= 46 * 1.74 * roundoff * D,
+            "a clearance");
+}
+
+namespace {
+
+/// The end of y_0 that is a surface: drawn as the reference does, but for rounding.
+void require_drawn(const ref::World& world, const gpu::SurfacePoint& point,
+                   const ref::SurfacePoint& drawn)
+{
+    require(point.primitive == drawn.primitive, "the surface that light comes from");
+    require_on_surface(world, point);
+    const std::size_t triangles = world.scene.triangles.size();
+    const double error =
+        point.primitive < triangles
+            ? triangle_point_error(world.scene.triangles[point.primitive].vertices, drawn.position)
+            // The direction from the centre, as on the unit sphere (path_rounding.h, 3).
+            : (13 + 8) * roundoff * world.scene.spheres[point.primitive - triangles].radius +
+                  2 * roundoff * glm::length(drawn.position);
+    require(glm::length(Vec3(point.position) - drawn.position) <= error,
+            "the point that light comes from");
+}
+
+NextStep first_of_light(const Setting& setting, const gpu::SampledEmission& emission,
+                        const ref::SampledEmission& drawn, const ref::Uniforms& direction)
+{
+    const ref::World& world = setting.world;
+    const ref::Emitter& emitter = *drawn.y0.emitter;
+    // Emitted, area, probability, disc or solid angle, and what joins them.
+    NextStep step{drawn.ray.origin, 0, drawn.ray.direction, direction_error, drawn.alpha, 16 * roundoff};
+    switch (emitter.kind) {
+    case ref::EmitterKind::triangle:
+    case ref::EmitterKind::sphere: {
+        require_drawn(world, emission.end, drawn.y0.point);
+        // Around the normal as the floats have it.
+        const ref::SurfacePoint point = surface_of(world, emission.end);
+        const ref::Frame frame(point.normal);
+        step.direction =
+            glm::normalize(frame.to_world(ref::sample_cosine_hemisphere(direction[0], direction[1])));
+        step.origin = leave_surface(point, point.normal);
+        step.slack = 4 * roundoff * glm::length(point.position);
+        break;
+    }
+    case ref::EmitterKind::point:
+        break;
+    case ref::EmitterKind::spot: {
+        const auto& light = world.scene.spot_lights[emitter.index];
+        const double cosine = glm::dot(light.direction, drawn.ray.direction);
+        const double error = direction_error + cosine_error;
+        if (cosine - light.cos_cutoff <= error || (light.exponent > 0 && std::abs(cosine) <= 20 * error))
+            throw Undecided("the rim of a spot");
+        step.alpha_error += (light.exponent + 2) * error / std::abs(light.exponent > 0 ? cosine : 1.0);
+        break;
+    }
+    case ref::EmitterKind::directional:
+    case ref::EmitterKind::environment: {
+        const Vec3 towards(emission.towards);
+        require(glm::length(towards - drawn.y0.towards) <= 16 * roundoff, "where light comes from");
+        const ref::Frame frame(towards);
+        const glm::dvec2 disc = ref::sample_disc(direction[0], direction[1]);
+        const double radius = world.emitters.radius();
+        step.origin = radius * (disc.x * frame.x + disc.y * frame.y + 2.0 * towards);
+        step.slack = 48 * roundoff * radius; // 36 as of a direction, three times as long only along it
+        step.direction = -towards;
+        step.error = 0;
+        break;
+    }
+    }
+    return step;
+}
+
+} // namespace
+
+FollowedWalk followed_light_walk(const Setting& setting, const WatchedSample& sample,
+                                 std::size_t most_vertices)
+{
+    const ref::Uniforms position = float_uniforms(setting.id, ref::Event::emission_position);
+    const ref::Uniforms direction = float_uniforms(setting.id, ref::Event::emission_direction);
+    const auto drawn = sample_emission(setting.world, position, direction);
+    require(drawn.has_value() == sample.emission.has_value(), "whether there is light");
+    if (!drawn) return {};
+    const ref::Emitter& chosen = chosen_emitter(setting.world, position[0]);
+    require(&setting.world.emitters.all()[sample.emission->emitter] == &chosen, "the chosen emitter");
+
+    const NextStep step = first_of_light(setting, *sample.emission, *drawn, direction);
+    const gpu::Vec3 origin = sample.emission->ray.origin;
+    require(glm::length(Vec3(origin) - step.origin) <= step.slack, "where a light walk begins");
+    FollowedWalk walk{{drawn->y0}, {0}, {12 * roundoff}};
+    ref::Vertex& y0 = walk.vertices[0];
+    if (y0.kind == ref::Vertex::Kind::surface)
+        y0.point = surface_of(setting.world, sample.emission->end);
+    if (y0.kind == ref::Vertex::Kind::infinity) y0.towards = Vec3(sample.emission->towards);
+    NextStep from_there = step;
+    from_there.origin = Vec3(origin);
+    from_there.slack = 0;
+    follow(setting, ref::Transport::power, sample.light, most_vertices, from_there, walk);
+    return walk;
+}
+
+FollowedWalk followed_eye_walk(const Setting& setting, const WatchedSample& sample)
+{
+    const ref::Camera& camera = setting.world.camera;
+    const auto width = static_cast<std::uint32_t>(camera.width());
+    const ref::Uniforms u = float_uniforms(setting.id, ref::Event::camera);
+    const ref::Ray ray = camera.ray({setting.id.pixel % width + u[0], setting.id.pixel / width + u[1]});
+    const scenes::Camera& source = setting.world.scene.camera.value();
+    const int across = source.fov_axis == scenes::FovAxis::horizontal ? camera.width() : camera.height();
+    const double extent = 2 * std::tan(source.fov / 2) * (camera.width() + camera.height()) / across;
+    FollowedWalk walk{{eye_vertex(setting.world)}, {0}, {0}};
+    follow(setting, ref::Transport::radiance, sample.eye,
+           static_cast<std::size_t>(setting.options.max_edges) + 1,
+           {ray.origin, 0, ray.direction, camera_direction_error(extent), ref::Rgb(1), 0}, walk);
+    return walk;
+}
+
+} // namespace cuda_test
