@@ -6,6 +6,7 @@
 
 #include "cuda/parallel/host_device.h"
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -16,6 +17,9 @@ namespace gpu {
 constexpr std::uint32_t not_ordered = 0xffff'ffff;
 
 #if defined(__CUDACC__)
+
+/// Whether four lanes take no longer than one.
+constexpr bool lanes_at_once = false;
 
 struct alignas(16) Lanes { // in memory the same as the other
     float lane[4];
@@ -60,6 +64,11 @@ HD inline Lanes smaller(const Lanes& a, const Lanes& b)
     return result;
 }
 
+HD inline Lanes operator-(const Lanes& a)
+{
+    return {{-a[0], -a[1], -a[2], -a[3]}};
+}
+
 /// See below.
 HD inline void sortable(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[4])
 {
@@ -70,7 +79,17 @@ HD inline void sortable(const Lanes& near, const Lanes& far, std::uint32_t (&key
     }
 }
 
+/// See below.
+HD inline std::uint32_t not_negative(const Lanes& a)
+{
+    std::uint32_t bits = 0;
+    for (int i = 0; i < 4; ++i) bits |= a[i] >= 0 ? 1u << i : 0u;
+    return bits;
+}
+
 #else
+
+constexpr bool lanes_at_once = true;
 
 using Lanes = float __attribute__((vector_size(16)));
 
@@ -91,17 +110,34 @@ inline Lanes smaller(const Lanes& a, const Lanes& b)
     return a < b ? a : b;
 }
 
+using Words = std::uint32_t __attribute__((vector_size(16)));
+
 /// For every lane a number that sorts like `near` (which must not be negative: then its bits sort like
-/// itself), with the number of the lane in its lowest two bits; not_ordered, unless near <= far. Without
-/// those two bits it is the bits of `near`, or of a float up to 3 ulps below it.
+/// itself), with the number of the lane in its lowest two bits; not_ordered, unless near <= far, of
+/// which neither may be NaN. Without those two bits it is the bits of `near`, or of a float up to 3 ulps
+/// below it.
 inline void sortable(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[4])
 {
-    using Words = std::uint32_t __attribute__((vector_size(16)));
     const Words named = (std::bit_cast<Words>(near) & ~3u) | Words{0, 1, 2, 3};
-    const Words sorted = near <= far ? named : Words{not_ordered, not_ordered, not_ordered, not_ordered};
+    const Words sorted = named | std::bit_cast<Words>(near > far);
     std::memcpy(keys, &sorted, sizeof keys);
 }
 
+/// Bit i is set where a[i] >= 0: not where it is NaN.
+inline std::uint32_t not_negative(const Lanes& a)
+{
+    const Words bits = std::bit_cast<Words>(a >= Lanes{0, 0, 0, 0}) & Words{1, 2, 4, 8};
+    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(bits);
+    const std::uint64_t both = halves[0] | halves[1];
+    return static_cast<std::uint32_t>(both | both >> 32);
+}
+
 #endif
+
+/// The absolute value.
+HD inline Lanes magnitude(const Lanes& a)
+{
+    return larger(a, -a);
+}
 
 } // namespace gpu

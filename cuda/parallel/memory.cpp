@@ -1,16 +1,22 @@
 #include "cuda/parallel/memory.h"
 
+#include <sys/mman.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <cstring>
-#include <new>
+#include <limits>
 
 namespace gpu {
 
 namespace {
 
 /// A cache line: no two blocks share one, and no node of a tree straddles two.
-constexpr std::align_val_t alignment{64};
+constexpr std::size_t cache_line = 64;
+
+/// What a block of several of them is better made of than of pages of 4096 bytes: rays jump about in a
+/// tree, and the processor remembers the addresses of few pages.
+constexpr std::size_t large_page = std::size_t{1} << 21;
 
 } // namespace
 
@@ -28,12 +34,17 @@ void* Memory::allocate(std::size_t bytes)
 
 void* HostMemory::try_allocate(std::size_t bytes)
 {
-    return ::operator new(bytes, alignment, std::nothrow);
+    const std::size_t unit = bytes < large_page ? cache_line : large_page;
+    if (bytes > std::numeric_limits<std::size_t>::max() - unit) return nullptr;
+    const std::size_t whole = (bytes + unit - 1) / unit * unit;
+    void* const block = std::aligned_alloc(unit, whole);
+    if (block != nullptr && unit == large_page) madvise(block, whole, MADV_HUGEPAGE); // a wish: may fail
+    return block;
 }
 
 void HostMemory::release(void* block) noexcept
 {
-    ::operator delete(block, alignment);
+    std::free(block);
 }
 
 void HostMemory::write(void* to, const void* from, std::size_t bytes)

@@ -32,13 +32,9 @@
 // the triangle's longest edge to its smallest height.
 
 #include "cuda/parallel/vec.h"
-
-#include <limits>
+#include "cuda/trees/rounding.h"
 
 namespace gpu {
-
-/// A single operation returns its exact result times 1 + d, |d| <= unit_roundoff.
-constexpr float unit_roundoff = std::numeric_limits<float>::epsilon() / 2;
 
 /// For the point `position` = v0 + (b1 e1 + b2 e2) of a triangle: along every axis, how far the plane
 /// that rays meet may be from it. `diagonal`: of the box around all surfaces.

@@ -30,6 +30,11 @@ public:
         const Vec3 moved = permuted(vertex) - origin_;
         return {moved.x - shear_.x * moved.z, moved.y - shear_.y * moved.z, shear_.z * moved.z};
     }
+    [[nodiscard]] HD int kx() const { return kx_; }
+    [[nodiscard]] HD int ky() const { return ky_; }
+    [[nodiscard]] HD int kz() const { return kz_; }
+    [[nodiscard]] HD const Vec3& origin() const { return origin_; }       // permuted: x is that along kx
+    [[nodiscard]] HD const Vec3& shear_factors() const { return shear_; } // S
 
 private:
     [[nodiscard]] HD Vec3 permuted(const Vec3& v) const
@@ -78,6 +83,7 @@ HD inline bool intersect_triangle(const ShearedRay& ray, const Triangle& triangl
     const double det = U + V + W; // of one sign: 0 only if all are
     if (det == 0) return false;
     const double T = U * A.z + V * B.z + W * C.z;
+    if ((T < 0) != (det < 0)) return false; // behind, as is what a ray has left: no need to divide
     const auto t = static_cast<float>(T / det);
     if (!(t > 0 && t < limit)) return false;
     hit.t = t;

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gpu {
@@ -17,22 +18,26 @@ namespace gpu {
 /// What kernels need of the surfaces. Where there are no spheres they cost nothing.
 template <bool has_spheres>
 struct Surfaces {
-    WideTreeView tree; // the triangle of a leaf that is a sphere is none, and is not read
+    WideTreeView tree; // in its groups a sphere has a number, and no vertices
     std::span<const Sphere> spheres;
     std::uint32_t triangle_count;
 };
 
-/// If the ray hits the primitive of a leaf at 0 < t < `limit`: sets all of `hit`.
-template <bool has_spheres>
-HD bool intersect_leaf(const Surfaces<has_spheres>& surfaces, std::uint32_t leaf, const Ray& ray,
-                       const ShearedRay& sheared, float limit, Hit& hit)
+/// Calls found(hit) for every primitive of a group that the ray hits at 0 < t < ray.t_max.
+template <bool has_spheres, class Found>
+HD void intersect_group(const Surfaces<has_spheres>& surfaces, std::uint32_t group, const Ray& ray,
+                        const ShearedRay& sheared, const Found& found)
 {
-    hit.primitive = surfaces.tree.primitives[leaf];
+    const TriangleGroup& members = surfaces.tree.groups[group];
+    intersect_group(sheared, members, ray.t_max, found);
     if constexpr (has_spheres)
-        if (hit.primitive >= surfaces.triangle_count)
-            return intersect_sphere(ray, surfaces.spheres[hit.primitive - surfaces.triangle_count],
-                                    limit, hit);
-    return intersect_triangle(sheared, surfaces.tree.triangles[leaf], limit, hit);
+        for (const std::uint32_t primitive : members.primitives) {
+            if (primitive < surfaces.triangle_count || primitive == no_primitive) continue;
+            Hit hit{0, primitive, 0, 0};
+            if (intersect_sphere(ray, surfaces.spheres[primitive - surfaces.triangle_count], ray.t_max,
+                                 hit))
+                found(hit);
+        }
 }
 
 /// The hit of smallest t; of several at the same t, that of the lowest primitive number. Where nothing
@@ -42,10 +47,10 @@ HD Hit closest_hit(const Surfaces<has_spheres>& surfaces, const Ray& ray)
 {
     const ShearedRay sheared(ray);
     Hit best{ray.t_max, no_primitive, 0, 0};
-    traverse(surfaces.tree, ray, [&](std::uint32_t leaf) {
-        Hit hit{};
-        if (intersect_leaf(surfaces, leaf, ray, sheared, ray.t_max, hit) && comes_before(hit, best))
-            best = hit;
+    traverse(surfaces.tree, ray, [&](std::uint32_t group) {
+        intersect_group(surfaces, group, ray, sheared, [&](const Hit& hit) {
+            if (comes_before(hit, best)) best = hit;
+        });
         return best.t;
     });
     return best;
@@ -57,27 +62,12 @@ HD bool any_hit(const Surfaces<has_spheres>& surfaces, const Ray& ray)
 {
     const ShearedRay sheared(ray);
     bool found = false;
-    traverse(surfaces.tree, ray, [&](std::uint32_t leaf) {
-        Hit hit{};
-        found = found || intersect_leaf(surfaces, leaf, ray, sheared, ray.t_max, hit);
+    traverse(surfaces.tree, ray, [&](std::uint32_t group) {
+        intersect_group(surfaces, group, ray, sheared, [&](const Hit& /*hit*/) { found = true; });
         return found ? -1.0f : ray.t_max;
     });
     return found;
 }
-
-/// Kernel over leaves: which primitive each is, and its triangle, if it is one.
-struct FillLeaves {
-    std::span<const Triangle> triangles;
-    std::span<const std::uint32_t> sorted;
-    std::span<std::uint32_t> primitives;
-    std::span<Triangle> ordered;
-
-    HD void operator()(std::uint32_t leaf) const
-    {
-        primitives[leaf] = sorted[leaf];
-        if (sorted[leaf] < triangles.size()) ordered[leaf] = triangles[sorted[leaf]];
-    }
-};
 
 /// Owns surfaces and a tree over them.
 class SurfaceTree {
@@ -89,50 +79,45 @@ public:
     template <Executor E>
     SurfaceTree(Memory& memory, E& executor, std::span<const Triangle> triangles,
                 std::span<const Sphere> spheres)
-        : triangle_count_(static_cast<std::uint32_t>(triangles.size())),
-          primitive_count_(triangle_count_ + static_cast<std::uint32_t>(spheres.size())),
-          spheres_(memory, spheres), primitives_(memory, primitive_count_),
-          ordered_(memory, primitive_count_),
-          nodes_(memory, primitive_count_ == 0 ? 0 : primitive_count_ - 1)
-    {
-        const Buffer<Triangle> given(memory, triangles);
-        Buffer<Box> boxes(memory, primitive_count_);
-        const std::span<Box> all = boxes.all();
-        executor(triangle_count_, BoundTriangles{given.all(), all.first(triangle_count_)});
-        executor(static_cast<std::uint32_t>(spheres.size()),
-                 BoundSpheres{spheres_.all(), all.subspan(triangle_count_)});
-
-        Lbvh<std::uint64_t> tree(memory, executor, primitive_count_);
-        tree.build(executor, all);
-        executor(primitive_count_,
-                 FillLeaves{given.all(), tree.primitives(), primitives_.all(), ordered_.all()});
-        executor(static_cast<std::uint32_t>(nodes_.size()), WidenNodes{tree.nodes(), nodes_.all()});
-
-        const std::vector<Box> on_host = boxes.read(primitive_count_);
-        throw_if_rejected(tree.first_rejected(), on_host);
-        Box bounds = empty_box();
-        for (const Box& box : on_host) bounds = unite(bounds, box);
-        if (!on_host.empty()) diagonal_ = glm::length(bounds.upper - bounds.lower);
-    }
+        : triangle_count_(static_cast<std::uint32_t>(triangles.size())), spheres_(memory, spheres),
+          tree_(build(memory, executor, triangles))
+    {}
 
     /// Stays good while the tree lives. With `has_spheres` false there must be none.
     template <bool has_spheres>
     [[nodiscard]] Surfaces<has_spheres> view() const
     {
-        return {{nodes_.all(), primitives_.all(), ordered_.all()}, spheres_.all(), triangle_count_};
+        return {tree_.view(), spheres_.all(), triangle_count_};
     }
     [[nodiscard]] bool has_spheres() const { return spheres_.size() > 0; }
     /// Of the box around all surfaces (clearance.h); 0 where there are none.
     [[nodiscard]] float diagonal() const { return diagonal_; }
 
 private:
+    template <Executor E>
+    WideTree build(Memory& memory, E& executor, std::span<const Triangle> triangles)
+    {
+        const auto sphere_count = static_cast<std::uint32_t>(spheres_.size());
+        const std::uint32_t count = triangle_count_ + sphere_count;
+        const Buffer<Triangle> given(memory, triangles);
+        Buffer<Box> boxes(memory, count);
+        executor(triangle_count_, BoundTriangles{given.all(), boxes.first(triangle_count_)});
+        executor(sphere_count, BoundSpheres{spheres_.all(), boxes.all().subspan(triangle_count_)});
+
+        Lbvh<std::uint64_t> tree(memory, executor, count);
+        tree.build(executor, boxes.all());
+        const std::vector<Box> on_host = boxes.read(count);
+        throw_if_rejected(tree.first_rejected(), on_host);
+        Box bounds = empty_box();
+        for (const Box& box : on_host) bounds = unite(bounds, box);
+        if (count > 0) diagonal_ = glm::length(bounds.upper - bounds.lower);
+        return {memory, executor, std::as_const(tree).nodes(), tree.primitives(), given.all()};
+    }
+
     std::uint32_t triangle_count_;
-    std::uint32_t primitive_count_;
-    Buffer<Sphere> spheres_;
-    Buffer<std::uint32_t> primitives_;
-    Buffer<Triangle> ordered_;
-    Buffer<WideNode> nodes_;
     float diagonal_ = 0;
+    Buffer<Sphere> spheres_;
+    WideTree tree_;
 };
 
 } // namespace gpu

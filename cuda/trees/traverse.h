@@ -6,7 +6,7 @@
 #include "cuda/trees/intersect.h"
 #include "cuda/trees/node.h"
 #include "cuda/trees/slabs.h"
-#include "cuda/trees/wide_node.h"
+#include "cuda/trees/wide_tree.h"
 
 #include <bit>
 #include <cstdint>
@@ -21,12 +21,6 @@ struct TreeView {
     std::span<const Node> nodes;
     std::span<const std::uint32_t> primitives; // by leaf: which primitive its triangle is
     std::span<const Triangle> triangles;       // by leaf
-};
-
-struct WideTreeView {
-    std::span<const WideNode> nodes;
-    std::span<const std::uint32_t> primitives;
-    std::span<const Triangle> triangles;
 };
 
 /// Kernel over leaves: brings triangles into their order.
@@ -66,18 +60,25 @@ public:
     }
 
 private:
-    // A step down a tree leaves one child waiting; one down a wide tree, which is two at least, three.
-    static constexpr int most = deepest_tree + deepest_tree / 2 + 6;
+    // A step down a tree leaves one child waiting; one down a wide tree three, and it may be a step to a
+    // child that the narrow tree has no deeper, while its sibling has been opened twice.
+    static constexpr int most = 3 * deepest_tree + 4;
     std::uint32_t children_[most];
     float entries_[most];
     int height_ = 0;
 };
 
+/// For those who do not count nodes.
+struct NotCounted {
+    HD void operator()() const {}
+};
+
 /// Calls test(leaf) for every leaf whose box the ray enters at a t <= limit, of two children the nearer
 /// one first. `test` returns the limit from then on: the t of the closest hit so far, or a negative
-/// number to stop. Of a tree over one primitive the only leaf is tested in any case.
-template <class Test>
-HD void traverse(const TreeView& tree, const Ray& ray, const Test& test)
+/// number to stop. Of a tree over one primitive the only leaf is tested in any case. Calls count() for
+/// every node.
+template <class Test, class Count = NotCounted>
+HD void traverse(const TreeView& tree, const Ray& ray, const Test& test, const Count& count = {})
 {
     if (tree.nodes.empty()) {
         if (!tree.primitives.empty()) test(0);
@@ -93,6 +94,7 @@ HD void traverse(const TreeView& tree, const Ray& ray, const Test& test)
             limit = test(next & ~leaf_bit);
             continue;
         }
+        count();
         const Node& node = tree.nodes[next];
         const float entry[2] = {slabs.entry(node.bounds[0], limit), slabs.entry(node.bounds[1], limit)};
         const int nearer = entry[1] < entry[0] ? 1 : 0;
@@ -117,15 +119,15 @@ HD inline void sort_four(std::uint32_t (&keys)[4])
     order(1, 2);
 }
 
-/// The same by way of the wide nodes.
-template <class Test>
-HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test)
+/// The same by way of wide nodes: calls test(group).
+template <class Test, class Count = NotCounted>
+HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test, const Count& count = {})
 {
     if (tree.nodes.empty()) {
-        if (!tree.primitives.empty()) test(0);
+        if (!tree.groups.empty()) test(0);
         return;
     }
-    const Slabs slabs(ray, tree.nodes[0]);
+    const WideSlabs slabs{Slabs(ray, tree.bounds)};
     float limit = ray.t_max;
     Waiting waiting;
     std::uint32_t next = 0;
@@ -135,6 +137,7 @@ HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test)
             if (!waiting.pop(limit, next)) return;
             continue;
         }
+        count();
         const WideNode& node = tree.nodes[next];
         Lanes near;
         Lanes far;
@@ -142,14 +145,14 @@ HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test)
         std::uint32_t keys[4];
         sortable(near, far, keys);
         sort_four(keys);
+        if (keys[0] == not_ordered) {
+            if (!waiting.pop(limit, next)) return;
+            continue;
+        }
         for (int i = 3; i >= 1; --i)
             waiting.push_if(keys[i] != not_ordered, node.children[keys[i] & 3],
                             std::bit_cast<float>(keys[i] & ~3u));
-        if (keys[0] != not_ordered) {
-            next = node.children[keys[0] & 3];
-            continue;
-        }
-        if (!waiting.pop(limit, next)) return;
+        next = node.children[keys[0] & 3];
     }
 }
 

@@ -13,50 +13,79 @@
 
 namespace gpu {
 
+/// A leaf of a wide tree has at most so many primitives.
+constexpr std::uint32_t most_in_group = 4;
+
 /// Up to four children, the boxes coordinate by coordinate. A child that is not there has no_node for a
 /// name and a box that no ray enters. Two cache lines.
 struct alignas(64) WideNode {
-    Lanes bounds[2][3];        // lower, upper; x, y, z
-    std::uint32_t children[4]; // a leaf, or the wide node of that number
+    Lanes planes[6];           // lower x, y, z; upper x, y, z
+    std::uint32_t children[4]; // a wide node by its number, a group by its number and the highest bit
 };
 static_assert(sizeof(WideNode) == 128);
 
-/// Kernel over inner nodes: makes of every node the wide node that begins there, by opening twice the
-/// child with the largest surface [Wald et al. 2008, sec. 3.1]. So each can be made without knowing
-/// which of them are needed. A ray that starts at node 0 never comes to the others.
-struct WidenNodes {
-    std::span<const Node> nodes;
-    std::span<WideNode> wide;
-
-    HD void operator()(std::uint32_t i) const
-    {
-        Box boxes[4] = {nodes[i].bounds[0], nodes[i].bounds[1]};
-        std::uint32_t children[4] = {nodes[i].children[0], nodes[i].children[1], no_node, no_node};
-        int count = 2;
-        while (count < 4) {
-            int largest = -1;
-            for (int c = 0; c < count; ++c)
-                if (!is_leaf(children[c]) &&
-                    (largest < 0 || half_area(boxes[c]) > half_area(boxes[largest])))
-                    largest = c;
-            if (largest < 0) break;
-            const Node& opened = nodes[children[largest]];
-            for (int side = 0; side < 2; ++side) {
-                const int to = side == 0 ? largest : count;
-                boxes[to] = opened.bounds[side];
-                children[to] = opened.children[side];
-            }
-            ++count;
+/// The leaves below `child`, from left to right. Returns how many; if they are more than fit, that is
+/// said by most_in_group + 1.
+HD inline std::uint32_t leaves_below(std::span<const Node> nodes, std::uint32_t child,
+                                     std::uint32_t (&leaves)[most_in_group])
+{
+    std::uint32_t waiting[most_in_group + 1] = {child}; // each stands for one leaf at least
+    std::uint32_t height = 1;
+    std::uint32_t count = 0;
+    while (height > 0) {
+        const std::uint32_t next = waiting[--height];
+        if (is_leaf(next)) {
+            leaves[count++] = next & ~leaf_bit;
+            continue;
         }
-        constexpr float infinity = std::numeric_limits<float>::infinity();
-        for (int c = 0; c < 4; ++c) {
-            wide[i].children[c] = children[c];
-            for (int axis = 0; axis < 3; ++axis) {
-                wide[i].bounds[0][axis][c] = c < count ? boxes[c].lower[axis] : infinity;
-                wide[i].bounds[1][axis][c] = c < count ? boxes[c].upper[axis] : -infinity;
-            }
-        }
+        if (count + height + 2 > most_in_group) return most_in_group + 1;
+        waiting[height++] = nodes[next].children[1];
+        waiting[height++] = nodes[next].children[0];
     }
+    return count;
+}
+
+/// Whether there are so few leaves below `child` that they make a group.
+HD inline bool is_group(std::span<const Node> nodes, std::uint32_t child)
+{
+    std::uint32_t leaves[most_in_group];
+    return leaves_below(nodes, child, leaves) <= most_in_group;
+}
+
+/// Up to four children of a node.
+struct OpenedNode {
+    Box boxes[4];
+    std::uint32_t children[4];
+    bool groups[4]; // which of the children are
+    int count;
 };
+
+/// A node that is no group, after opening twice the child with the largest surface that is none either
+/// [Wald et al. 2008, sec. 3.1].
+HD inline OpenedNode opened(std::span<const Node> nodes, std::uint32_t node)
+{
+    const Node& root = nodes[node];
+    OpenedNode result{{root.bounds[0], root.bounds[1]},
+                      {root.children[0], root.children[1]},
+                      {is_group(nodes, root.children[0]), is_group(nodes, root.children[1])},
+                      2};
+    while (result.count < 4) {
+        int largest = -1;
+        for (int c = 0; c < result.count; ++c)
+            if (!result.groups[c] &&
+                (largest < 0 || half_area(result.boxes[c]) > half_area(result.boxes[largest])))
+                largest = c;
+        if (largest < 0) break;
+        const Node& next = nodes[result.children[largest]];
+        for (int side = 0; side < 2; ++side) {
+            const int to = side == 0 ? largest : result.count;
+            result.boxes[to] = next.bounds[side];
+            result.children[to] = next.children[side];
+            result.groups[to] = is_group(nodes, next.children[side]);
+        }
+        ++result.count;
+    }
+    return result;
+}
 
 } // namespace gpu

@@ -5,12 +5,13 @@
 //
 // Builds are from boxes in memory that is there already; "hploc" is morton63 and what comes on top. With
 // more than one thread the time that passes counts, else the CPU time. SAH costs: C_trav = C_isect = 1.
+// Of rays also: nodes and leaves (groups of a wide tree) per ray, and nodes if no hit stopped it.
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/hploc.h"
 #include "cuda/trees/sah_cost.h"
 #include "cuda/trees/scene_geometry.h"
-#include "cuda/trees/traverse.h"
+#include "cuda/trees/surfaces.h"
 #include "tests/bench/bumpy_sphere.h"
 #include "tests/bench/embree.h"
 
@@ -50,23 +51,24 @@ class Traceable {
 public:
     explicit Traceable(const scenes::Scene& scene)
         : triangles_(gpu::triangles_of(scene)), count_(static_cast<std::uint32_t>(triangles_.size())),
-          tree_(memory_, gpu::SerialExecutor{}, count_), clustered_(memory_, count_), wide_(count_ - 1),
-          ordered_(count_)
+          tree_(memory_, gpu::SerialExecutor{}, count_), clustered_(memory_, count_), ordered_(count_)
     {
         gpu::SerialExecutor executor;
         const std::vector<gpu::Box> boxes = gpu::boxes_of(scene);
         tree_.build(executor, boxes);
         clustered_.build(executor, boxes, tree_);
         executor(count_, gpu::OrderTriangles{triangles_, tree_.primitives(), ordered_});
+        for (const bool clustered : {false, true})
+            wide_.emplace_back(memory_, executor, narrow(clustered).nodes, tree_.primitives(),
+                               triangles_);
     }
     [[nodiscard]] gpu::TreeView narrow(bool clustered) const
     {
         return {clustered ? clustered_.nodes() : tree_.nodes(), tree_.primitives(), ordered_};
     }
-    [[nodiscard]] gpu::WideTreeView wide(bool clustered)
+    [[nodiscard]] gpu::Surfaces<false> wide(bool clustered) const
     {
-        gpu::SerialExecutor{}(count_ - 1, gpu::WidenNodes{narrow(clustered).nodes, wide_});
-        return {wide_, tree_.primitives(), ordered_};
+        return {wide_[clustered ? 1 : 0].view(), {}, count_};
     }
     [[nodiscard]] Vec3 normal(std::uint32_t triangle) const
     {
@@ -80,17 +82,17 @@ private:
     std::uint32_t count_;
     gpu::Lbvh<std::uint64_t> tree_;
     gpu::Hploc clustered_;
-    std::vector<gpu::WideNode> wide_;
+    std::vector<gpu::WideTree> wide_;
     std::vector<gpu::Triangle> ordered_;
 };
 
-Rays make_rays(Traceable& scene)
+Rays make_rays(const Traceable& scene)
 {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     std::mt19937 random(1);
     std::uniform_real_distribution<float> uniform(-1, 1);
     const auto in_cube = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
-    const gpu::WideTreeView tree = scene.wide(true);
+    const gpu::Surfaces<false> tree = scene.wide(true);
     Rays rays;
     for (int i = 0; i < 100000; ++i) {
         const Vec3 eye(2.9f, 3.6f, 3.8f);
@@ -109,6 +111,62 @@ Rays make_rays(Traceable& scene)
     return rays;
 }
 
+/// Leaves of a narrow tree: what a ray hits there.
+template <class Found>
+void intersect(const gpu::TreeView& tree, std::uint32_t leaf, const gpu::Ray& ray,
+               const gpu::ShearedRay& sheared, const Found& found)
+{
+    gpu::Hit hit{0, tree.primitives[leaf], 0, 0};
+    if (intersect_triangle(sheared, tree.triangles[leaf], ray.t_max, hit)) found(hit);
+}
+
+/// The same for groups of a wide tree.
+template <class Found>
+void intersect(const gpu::Surfaces<false>& tree, std::uint32_t group, const gpu::Ray& ray,
+               const gpu::ShearedRay& sheared, const Found& found)
+{
+    intersect_group(tree, group, ray, sheared, found);
+}
+
+const gpu::TreeView& nodes_of(const gpu::TreeView& tree)
+{
+    return tree;
+}
+
+const gpu::WideTreeView& nodes_of(const gpu::Surfaces<false>& tree)
+{
+    return tree.tree;
+}
+
+/// Nodes and leaves (or groups) that a ray visits on average; and nodes, if no hit stops it.
+template <class View>
+void count_visits(benchmark::State& state, const View& tree, const std::vector<gpu::Ray>& rays)
+{
+    std::uint64_t nodes = 0;
+    std::uint64_t leaves = 0;
+    std::uint64_t unstopped = 0;
+    for (const gpu::Ray& ray : rays) {
+        const gpu::ShearedRay sheared(ray);
+        gpu::Hit best{ray.t_max, gpu::no_primitive, 0, 0};
+        const auto test = [&](std::uint32_t leaf) {
+            ++leaves;
+            intersect(tree, leaf, ray, sheared, [&](const gpu::Hit& hit) {
+                if (comes_before(hit, best)) best = hit;
+            });
+            return best.t;
+        };
+        traverse(nodes_of(tree), ray, test, [&] { ++nodes; });
+        const auto pass = [&](std::uint32_t /*leaf*/) { return ray.t_max; };
+        traverse(nodes_of(tree), ray, pass, [&] { ++unstopped; });
+    }
+    const auto per_ray = [&](std::uint64_t count) {
+        return static_cast<double>(count) / static_cast<double>(rays.size());
+    };
+    state.counters["nodes"] = per_ray(nodes);
+    state.counters["leaves"] = per_ray(leaves);
+    state.counters["unstopped"] = per_ray(unstopped);
+}
+
 template <class View>
 void trace(benchmark::State& state, const View& tree, const std::vector<gpu::Ray>& rays)
 {
@@ -118,6 +176,7 @@ void trace(benchmark::State& state, const View& tree, const std::vector<gpu::Ray
         executor(static_cast<std::uint32_t>(rays.size()), gpu::FindClosestHits<View>{tree, rays, hits});
     const auto traced = static_cast<double>(state.iterations()) * static_cast<double>(rays.size());
     state.counters["rays"] = benchmark::Counter(traced, benchmark::Counter::kIsRate);
+    count_visits(state, tree, rays);
 }
 
 std::vector<ref::Ray> in_double(const std::vector<gpu::Ray>& rays)

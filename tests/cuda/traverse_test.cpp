@@ -208,8 +208,8 @@ TEST(TraverseInFloat, EveryExecutorFindsTheSameHits)
     gpu::SerialExecutor serial_executor;
     gpu::ThreadedExecutor threads(3, 1);
     serial_executor(500, gpu::FindClosestHits<gpu::TreeView>{tree.narrow(), rays, serial});
-    threads(500, gpu::FindClosestHits<gpu::WideTreeView>{tree.wide(), rays, threaded});
-    threads(500, gpu::FindAnyHits<gpu::WideTreeView>{tree.wide(), rays, any});
+    threads(500, gpu::FindClosestHits<gpu::Surfaces<false>>{tree.wide(), rays, threaded});
+    threads(500, gpu::FindAnyHits<gpu::Surfaces<false>>{tree.wide(), rays, any});
     for (std::size_t i = 0; i < 500; ++i) {
         EXPECT_TRUE(same(serial[i], threaded[i])) << i;
         EXPECT_EQ(any[i] == 1, serial[i].primitive != gpu::no_primitive) << i;

@@ -4,9 +4,10 @@
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/lbvh.h"
-#include "cuda/trees/traverse.h"
+#include "cuda/trees/surfaces.h"
 #include "tests/trees/meshes.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,17 +37,16 @@ public:
         gpu::throw_if_rejected(tree_.first_rejected(), boxes);
         ordered_.resize(n);
         executor(n, gpu::OrderTriangles{triangles, tree_.primitives(), ordered_});
-        wide_.resize(tree_.nodes().size());
-        executor(static_cast<std::uint32_t>(wide_.size()), gpu::WidenNodes{tree_.nodes(), wide_});
+        wide_.emplace(memory_, executor, triangles, std::span<const gpu::Sphere>());
     }
     [[nodiscard]] gpu::TreeView narrow() const { return {tree_.nodes(), tree_.primitives(), ordered_}; }
-    [[nodiscard]] gpu::WideTreeView wide() const { return {wide_, tree_.primitives(), ordered_}; }
+    [[nodiscard]] gpu::Surfaces<false> wide() const { return wide_->view<false>(); }
 
 private:
     gpu::HostMemory memory_;
     gpu::Lbvh<std::uint64_t> tree_;
     std::vector<gpu::Triangle> ordered_;
-    std::vector<gpu::WideNode> wide_;
+    std::optional<gpu::SurfaceTree> wide_;
 };
 
 /// The closest hit by testing every triangle.

@@ -1,0 +1,12 @@
+#pragma once
+
+// How far a computed float can be from the real number it stands for.
+
+#include <limits>
+
+namespace gpu {
+
+/// A single operation returns its exact result times 1 + d, |d| <= unit_roundoff.
+constexpr float unit_roundoff = std::numeric_limits<float>::epsilon() / 2;
+
+} // namespace gpu
