@@ -80,8 +80,10 @@ public:
     HD explicit WideSlabs(const Slabs& slabs)
     {
         for (int axis = 0; axis < 3; ++axis) {
-            first_[axis] = slabs.first_[axis] != 0 ? 3 + axis : axis;
-            last_[axis] = slabs.first_[axis] != 0 ? axis : 3 + axis;
+            const auto lower = static_cast<std::size_t>(axis);
+            const std::size_t upper = 3 + lower;
+            first_[axis] = slabs.first_[axis] != 0 ? upper : lower;
+            last_[axis] = slabs.first_[axis] != 0 ? lower : upper;
             entering_[axis] = all_lanes(slabs.entering_[axis]);
             leaving_[axis] = all_lanes(slabs.leaving_[axis]);
             reciprocal_[axis] = all_lanes(slabs.reciprocal_[axis]);
