@@ -40,13 +40,22 @@ HD void intersect_group(const Surfaces<has_spheres>& surfaces, std::uint32_t gro
         }
 }
 
+/// Whether the ray has a place and a direction. The comparisons of a traversal let NaN pass, which would
+/// lead others to children that are not there.
+HD inline bool is_a_ray(const Ray& ray)
+{
+    return is_finite(ray.origin) && is_finite(ray.direction) && ray.direction != Vec3(0.0f);
+}
+
 /// The hit of smallest t; of several at the same t, that of the lowest primitive number. Where nothing
-/// is hit its primitive is no_primitive and its t that of the ray's end.
+/// is hit, as by a ray that has no place or no direction, its primitive is no_primitive and its t that
+/// of the ray's end.
 template <bool has_spheres>
 HD Hit closest_hit(const Surfaces<has_spheres>& surfaces, const Ray& ray)
 {
-    const ShearedRay sheared(ray);
     Hit best{ray.t_max, no_primitive, 0, 0};
+    if (!is_a_ray(ray)) return best;
+    const ShearedRay sheared(ray);
     traverse(surfaces.tree, ray, [&](std::uint32_t group) {
         intersect_group(surfaces, group, ray, sheared, [&](const Hit& hit) {
             if (comes_before(hit, best)) best = hit;
@@ -56,10 +65,11 @@ HD Hit closest_hit(const Surfaces<has_spheres>& surfaces, const Ray& ray)
     return best;
 }
 
-/// Whether the ray hits anything.
+/// Whether the ray hits anything; see above for one that is none.
 template <bool has_spheres>
 HD bool any_hit(const Surfaces<has_spheres>& surfaces, const Ray& ray)
 {
+    if (!is_a_ray(ray)) return false;
     const ShearedRay sheared(ray);
     bool found = false;
     traverse(surfaces.tree, ray, [&](std::uint32_t group) {

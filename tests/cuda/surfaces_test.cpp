@@ -164,6 +164,28 @@ TEST(Surfaces, OneOrNoneNeedsNoTree)
     EXPECT_NEAR(one.diagonal(), std::sqrt(12.0), 1e-5);
 }
 
+TEST(Surfaces, ThatAreAskedByNoRayAnswerThatNothingIsHit)
+{
+    gpu::HostMemory memory;
+    gpu::SerialExecutor serial;
+    const test::Mesh mesh = test::icosphere(2, 1);
+    const SurfaceTree tree(memory, serial, cuda_test::triangles_of(mesh), {{{Vec3(0), 0.5f}}});
+    const Vec3 inside(0.1f, 0.2f, 0.7f);
+    const Vec3 up(0, 0, 1);
+    ASSERT_TRUE(any_hit(tree.view<true>(), {inside, infinity, up}));
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity})
+        for (int axis = 0; axis < 3; ++axis) {
+            Ray nowhere{inside, infinity, up};
+            nowhere.origin[axis] = bad;
+            Ray aimless{inside, infinity, up};
+            aimless.direction[axis] = bad;
+            for (const Ray& ray : {nowhere, aimless, Ray{inside, infinity, Vec3(0)}}) {
+                EXPECT_EQ(closest_hit(tree.view<true>(), ray).primitive, gpu::no_primitive);
+                EXPECT_FALSE(any_hit(tree.view<true>(), ray));
+            }
+        }
+}
+
 std::string complaint(const Shapes& shapes)
 {
     gpu::HostMemory memory;
