@@ -54,7 +54,10 @@ cpp_int in_units(float term)
 cpp_int in_units(const ExactSum& sum)
 {
     cpp_int units = 0;
-    for (int w = 0; w < 9; ++w) units += cpp_int(sum.words[w]) << (32 * w);
+    for (int w = 8; w >= 0; --w) {
+        units <<= 32;
+        units += sum.words[w];
+    }
     return units;
 }
 
