@@ -2,27 +2,21 @@
 
 #include "cuda/transport/renderer.h"
 #include "scenes/bounds.h"
-#include "scenes/read_scene.h"
 #include "tests/transport/changed_scene.h"
+#include "tests/transport/scene_files.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace {
-
-namespace fs = std::filesystem;
 
 std::vector<scenes::Scene> all_scenes()
 {
     std::vector<scenes::Scene> result;
-    for (const auto& entry : fs::directory_iterator(fs::path(PLUMBLINE_SOURCE_DIR) / "scenes"))
-        if (entry.path().extension() == ".dae") result.push_back(scenes::read_scene(entry.path()));
-    std::ranges::sort(result, {}, &scenes::Scene::name);
+    for (const auto& file : tests::our_scene_files()) result.push_back(scenes::read_scene(file));
     return result;
 }
 

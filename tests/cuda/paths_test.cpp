@@ -5,6 +5,7 @@
 #include "tests/cuda/float_scene.h"
 #include "tests/cuda/judged_paths.h"
 #include "tests/transport/random_scene.h"
+#include "tests/transport/scene_files.h"
 
 #include "cuda/transport/renderer.h"
 #include "scenes/read_scene.h"
@@ -144,16 +145,6 @@ TEST(PathsInFloat, SeeASkyWhereThereIsNothingElse)
     EXPECT_EQ(tally.left(), 0);
 }
 
-std::vector<std::filesystem::path> scene_files()
-{
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "scenes"))
-        if (entry.path().extension() == ".dae") files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
 class PathsInFloatOf : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(PathsInFloatOf, AreThoseOfTheReference)
@@ -181,7 +172,7 @@ TEST_P(PathsInFloatOf, AreThoseOfTheReference)
     expect_few_left(tally, 0.005);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, PathsInFloatOf, testing::ValuesIn(scene_files()),
+INSTANTIATE_TEST_SUITE_P(Scenes, PathsInFloatOf, testing::ValuesIn(tests::our_scene_files()),
                          [](const auto& file) { return file.param.stem().string(); });
 
 } // namespace

@@ -3,31 +3,25 @@
 
 #include "cuda/transport/batch_renderer.h"
 #include "cuda/transport/host_kernels.h"
-#include "scenes/read_scene.h"
 #include "tests/cuda/on_device.h"
 #include "tests/cuda/recording.h"
+#include "tests/transport/scene_files.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <filesystem>
 #include <numeric>
 
 namespace {
 
-namespace fs = std::filesystem;
 using cuda_test::Recorded;
 using cuda_test::Recorder;
 using gpu::Integrator;
+using tests::our_scene;
 
 constexpr int width = 12;
 constexpr int height = 9;
-
-scenes::Scene scene_named(const std::string& name)
-{
-    return scenes::read_scene(fs::path(PLUMBLINE_SOURCE_DIR) / "scenes" / (name + ".dae"));
-}
 
 gpu::RenderOptions short_paths(Integrator integrator)
 {
@@ -69,7 +63,7 @@ TEST(LaunchSize, GrowsAndShrinksBetweenItsLimits)
 RC_GTEST_PROP(BatchRenderer, DeterministicBitsDependOnNothingButTheSamples, ())
 {
     const auto scene =
-        scene_named(*rc::gen::element<std::string>("cornell_glass", "all_emitters", "mesh_knot"));
+        our_scene(*rc::gen::element<std::string>("cornell_glass", "all_emitters", "mesh_knot"));
     auto options = short_paths(*rc::gen::element(Integrator::path, Integrator::bdpt, Integrator::light));
     options.deterministic = true;
     options.batch_size = *rc::gen::inRange(1u, 6u);
@@ -102,7 +96,7 @@ golden::Image sum_of_samples(const scenes::Scene& scene, const gpu::RenderOption
 TEST(BatchRenderer, AddsUpAllContributionsOfAllSamples)
 {
     for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
-        const auto scene = scene_named("cornell_glass");
+        const auto scene = our_scene("cornell_glass");
         const auto options = short_paths(integrator);
         const golden::Image expected = sum_of_samples(scene, options, 3);
         const golden::Image batch = batch_of(scene, options, 2, 50, 3);
@@ -122,7 +116,7 @@ TEST(BatchRenderer, ABatchDoesNotDependOnThoseBefore)
 {
     auto options = short_paths(Integrator::bdpt);
     options.layers = gpu::Layers::weighted;
-    const auto renderer = gpu::host_renderer(scene_named("cornell_glass"), width, height, options, 1);
+    const auto renderer = gpu::host_renderer(our_scene("cornell_glass"), width, height, options, 1);
     const gpu::Batch first = *renderer->render_batch(0, {});
     const gpu::Batch second = *renderer->render_batch(1, {});
     EXPECT_FALSE(first.mean == second.mean);
@@ -137,8 +131,7 @@ TEST(BatchRenderer, WeightedLayersAddUpToThePicture)
         auto options = short_paths(Integrator::bdpt);
         options.layers = gpu::Layers::weighted;
         options.deterministic = deterministic;
-        const auto renderer =
-            gpu::host_renderer(scene_named("cornell_glass"), width, height, options, 2);
+        const auto renderer = gpu::host_renderer(our_scene("cornell_glass"), width, height, options, 2);
         const gpu::Batch batch = *renderer->render_batch(0, {});
         // (s, t) of 1 to 5 edges.
         EXPECT_EQ(batch.layers.size(), 2u + 3 + 4 + 5 + 6);
@@ -155,7 +148,7 @@ TEST(BatchRenderer, WeightedLayersAddUpToThePicture)
 
 TEST(BatchRenderer, UnweightedLayersHoldWhatEachStrategyFound)
 {
-    const auto scene = scene_named("all_emitters");
+    const auto scene = our_scene("all_emitters");
     auto options = short_paths(Integrator::bdpt);
     options.layers = gpu::Layers::unweighted;
     options.deterministic = true;
@@ -181,7 +174,7 @@ TEST(BatchRenderer, UnweightedLayersHoldWhatEachStrategyFound)
 TEST(BatchRenderer, StopsBetweenLaunchesAndGoesOnAsIfNothingHadBeen)
 {
     const auto renderer =
-        gpu::host_renderer(scene_named("cornell_diffuse"), 100, 100, short_paths(Integrator::bdpt), 1);
+        gpu::host_renderer(our_scene("cornell_diffuse"), 100, 100, short_paths(Integrator::bdpt), 1);
     const golden::Image whole = renderer->render_batch(2, {})->mean;
     int asked = 0;
     std::vector<double> parts;
@@ -196,7 +189,7 @@ TEST(BatchRenderer, StopsBetweenLaunchesAndGoesOnAsIfNothingHadBeen)
 
 TEST(BatchRenderer, RefusesOptionsThatContradictEachOther)
 {
-    const auto scene = scene_named("cornell_diffuse");
+    const auto scene = our_scene("cornell_diffuse");
     gpu::RenderOptions options;
     options.max_edges = 0;
     EXPECT_THROW(gpu::host_renderer(scene, 8, 8, options, 1), std::invalid_argument);
@@ -207,7 +200,7 @@ TEST(BatchRenderer, RefusesOptionsThatContradictEachOther)
 
 TEST(BatchRenderer, ASceneWithoutLightIsBlack)
 {
-    scenes::Scene scene = scene_named("point_over_plane");
+    scenes::Scene scene = our_scene("point_over_plane");
     scene.point_lights.clear();
     for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
         const golden::Image image = batch_of(scene, short_paths(integrator), 1, 64, 0);
@@ -219,9 +212,8 @@ TEST(BatchRenderer, ASceneWithoutLightIsBlack)
 TEST(Needs, LeavingOutWhatASceneDoesNotHaveChangesNothing)
 {
     bool seen[3][2] = {};
-    for (const auto& entry : fs::directory_iterator(fs::path(PLUMBLINE_SOURCE_DIR) / "scenes")) {
-        if (entry.path().extension() != ".dae") continue;
-        const scenes::Scene scene = scenes::read_scene(entry.path());
+    for (const auto& file : tests::our_scene_files()) {
+        const scenes::Scene scene = scenes::read_scene(file);
         const Recorder recorder(scene, width, height);
         const gpu::Needs needs = recorder.needs();
         seen[0][needs.spheres ? 1 : 0] = true;
@@ -243,7 +235,7 @@ class RendererOnDevice : public cuda_test::OnDevice {};
 TEST_F(RendererOnDevice, GivesTheHostsPicture)
 {
     for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
-        const auto scene = scene_named("cornell_glass");
+        const auto scene = our_scene("cornell_glass");
         auto options = short_paths(integrator);
         options.deterministic = true;
         const golden::Image host = batch_of(scene, options, 1, 512, 0);
@@ -263,7 +255,7 @@ TEST_F(RendererOnDevice, DeterministicMeansTheSameBitsAgain)
 {
     auto options = short_paths(Integrator::bdpt);
     options.deterministic = true;
-    const auto renderer = gpu::device_renderer(scene_named("cornell_glass"), 64, 64, options);
+    const auto renderer = gpu::device_renderer(our_scene("cornell_glass"), 64, 64, options);
     const golden::Image first = renderer->render_batch(0, {})->mean;
     for (int i = 0; i < 10; ++i) EXPECT_TRUE(renderer->render_batch(0, {})->mean == first);
 }

@@ -1,6 +1,7 @@
 #include "scenes/requirements.h"
 
 #include "scenes/read_scene.h"
+#include "tests/transport/scene_files.h"
 
 #include <gtest/gtest.h>
 
@@ -159,16 +160,6 @@ TEST(Requirements, TheAxisOfTheFieldOfViewIsTheCameras)
 
 // The scenes in this repository.
 
-std::vector<std::filesystem::path> scene_files()
-{
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "scenes"))
-        if (entry.path().extension() == ".dae") files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
 template <class Enumeration>
 std::string names(const std::set<Enumeration>& set)
 {
@@ -196,7 +187,7 @@ std::string stated_requirements(const std::filesystem::path& file)
 
 class OurScene : public testing::TestWithParam<std::filesystem::path> {};
 
-INSTANTIATE_TEST_SUITE_P(All, OurScene, testing::ValuesIn(scene_files()),
+INSTANTIATE_TEST_SUITE_P(All, OurScene, testing::ValuesIn(tests::our_scene_files()),
                          [](const auto& tested) { return tested.param.stem().string(); });
 
 TEST_P(OurScene, ReadsWithoutNoticesAndHasACamera)
@@ -227,7 +218,7 @@ void expect_all(const std::set<Enumeration>& required)
 TEST(OurScenes, RequireEveryEnumeratorAtLeastOnce)
 {
     scenes::Requirements all;
-    for (const std::filesystem::path& file : scene_files()) {
+    for (const std::filesystem::path& file : tests::our_scene_files()) {
         scenes::Requirements one = requirements(scenes::read_scene(file));
         all.shapes.merge(one.shapes);
         all.bsdfs.merge(one.bsdfs);

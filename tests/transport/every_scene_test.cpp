@@ -14,23 +14,13 @@ class EveryScene : public tests::OfEveryIntegrator {};
 INSTANTIATE_TEST_SUITE_P(Integrators, EveryScene, tests::integrators(), tests::name_of);
 INSTANTIATE_TEST_SUITE_P(LightTracer, EveryScene, tests::light_tracer(), tests::name_of);
 
-std::vector<std::string> names_of_scenes()
-{
-    std::vector<std::string> names;
-    for (const auto& file :
-         std::filesystem::directory_iterator(std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "scenes"))
-        if (file.path().extension() == ".dae") names.push_back(file.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 TEST_P(EveryScene, HasNoSampleThatIsNegativeOrNotANumber)
 {
-    const auto names = names_of_scenes();
-    EXPECT_GE(names.size(), 20u);
-    for (const std::string& name : names) {
-        SCOPED_TRACE(name);
-        const scenes::Scene scene = tests::our_scene(name);
+    const auto files = tests::our_scene_files();
+    EXPECT_GE(files.size(), 20u);
+    for (const auto& file : files) {
+        const scenes::Scene scene = scenes::read_scene(file);
+        SCOPED_TRACE(scene.name);
         const ref::World world(scene, 48, 32);
         // As many samples as the search through all primitives allows; at least one in some pixels.
         const auto affordable = static_cast<int>(1'000'000 / (scenes::primitive_count(scene) + 180));

@@ -4,16 +4,30 @@
 
 #include "scenes/read_scene.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace tests {
+
+inline const std::filesystem::path our_folder = std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "scenes";
 
 /// A scene of this repository, by its name without ending.
 inline scenes::Scene our_scene(const std::string& name)
 {
-    return scenes::read_scene(std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "scenes" / (name + ".dae"));
+    return scenes::read_scene((our_folder / name).concat(".dae"));
+}
+
+/// The files of all of them, in the order of their names.
+inline std::vector<std::filesystem::path> our_scene_files()
+{
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(our_folder))
+        if (entry.path().extension() == ".dae") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
 }
 
 /// A file of the shared folder: beside the repository, or where PLUMBLINE_SHARED says. It may be absent:
