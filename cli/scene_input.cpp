@@ -1,6 +1,8 @@
 #include "cli/scene_input.h"
 
+#include "scenes/contacts.h"
 #include "scenes/frame.h"
+#include "scenes/placed.h"
 #include "scenes/read_scene.h"
 
 #include <charconv>
@@ -37,10 +39,13 @@ void expect_ending(const std::string& path, const std::string& option, const std
 scenes::Scene load_scene(const std::string& file, bool frame, bool quiet)
 {
     scenes::Scene scene = scenes::read_scene(file);
-    if (!quiet)
-        for (const std::string& notice : scene.notices) std::cerr << file << ": " << notice << '\n';
     if (frame) scenes::frame_camera(scene);
     if (!scene.camera) throw std::invalid_argument(file + ": <COLLADA>: the scene has no camera");
+    scene = scenes::placed(std::move(scene));
+    for (std::string& notice : scenes::contact_notices(scene))
+        scene.notices.push_back(std::move(notice));
+    if (!quiet)
+        for (const std::string& notice : scene.notices) std::cerr << file << ": " << notice << '\n';
     return scene;
 }
 

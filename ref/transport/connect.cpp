@@ -27,19 +27,13 @@ std::optional<Contribution> contribution(const World& world, const PathOptions& 
                         mis_weight(world, options, join(y, z), y.size())};
 }
 
-/// Whether nothing stands between two vertices, at most one of which is at infinity.
-bool visible(const World& world, const Vertex& a, const Vertex& b)
+/// Whether nothing stands between the eye and another vertex, on a surface or at infinity.
+bool eye_sees(const World& world, const Vertex& vertex)
 {
-    using Kind = Vertex::Kind;
-    if (a.kind != Kind::surface && b.kind == Kind::surface) return visible(world, b, a);
-    if (a.kind == Kind::surface && b.kind == Kind::surface)
-        return visible(world.geometry, a.point, b.point);
-    const Vec3 w = direction(a, b);
-    if (b.kind == Kind::infinity)
+    if (vertex.kind == Vertex::Kind::infinity)
         return !occluded(world.geometry,
-                         {a.kind == Kind::surface ? leave_surface(a.point, w) : a.point.position, w});
-    if (a.kind == Kind::infinity) return visible(world, b, a);
-    return visible(world.geometry, a.point, b.point.position);
+                         {world.camera.eye(), vertex.towards, Ray{}.t_max, world.eye_on});
+    return visible(world.geometry, vertex.point, world.camera.eye(), world.eye_on);
 }
 
 } // namespace
@@ -83,7 +77,9 @@ std::optional<Contribution> light_image(const World& world, const PathOptions& o
     if (!film) return std::nullopt;
     const Rgb scattered =
         first ? emitted(world, last, eye) : evaluate_bsdf(world, y[y.size() - 2], last, eye);
-    if (scattered == Rgb(0.0) || !visible(world, last, eye)) return std::nullopt;
+    if (scattered == Rgb(0.0) || !eye_sees(world, last)) return std::nullopt;
+    if (first && last.kind == Vertex::Kind::surface && !sees_first(world.geometry, last.point, -w))
+        return std::nullopt;
     const auto pixel =
         static_cast<std::uint32_t>(film->y) * static_cast<std::uint32_t>(world.camera.width()) +
         static_cast<std::uint32_t>(film->x);
@@ -101,7 +97,7 @@ std::optional<Contribution> inner_connection(const World& world, const PathOptio
     if (!scatters(world, y_last) || !scatters(world, z_last)) return std::nullopt;
     const Rgb f = evaluate_bsdf(world, y[y.size() - 2], y_last, z_last) *
                   evaluate_bsdf(world, y_last, z_last, z[z.size() - 2]);
-    if (f == Rgb(0.0) || !visible(world, y_last, z_last)) return std::nullopt;
+    if (f == Rgb(0.0) || !visible(world.geometry, y_last.point, z_last.point)) return std::nullopt;
     return contribution(world, options, id.pixel, y, z,
                         y_last.alpha * f * geometric_term(y_last, z_last) * z_last.alpha);
 }

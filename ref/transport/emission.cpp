@@ -48,6 +48,7 @@ std::optional<SampledEmission> sample_emission(const World& world, const Uniform
         const SurfacePoint point = sample_surface(world.geometry, *emitter, position[1], position[2]);
         const Vec3 w = glm::normalize(
             Frame(point.normal).to_world(sample_cosine_hemisphere(direction[0], direction[1])));
+        if (!sees_first(world.geometry, point, w)) return std::nullopt; // another emitter covers it
         const Rgb alpha(emitter->area / choice);
         // L cos / (p_A cos / pi)
         return SampledEmission{surface_vertex(world, point, alpha),
@@ -58,14 +59,14 @@ std::optional<SampledEmission> sample_emission(const World& world, const Uniform
         const auto& light = world.scene.point_lights[emitter->index];
         const Vec3 w = sample_sphere(direction[0], direction[1]);
         return SampledEmission{source_vertex(*emitter, light.position, Rgb(1.0 / choice)),
-                               {light.position, w},
+                               {light.position, w, Ray{}.t_max, emitter->on},
                                light.intensity / (choice * pdf_solid_angle_sphere)};
     }
     case EmitterKind::spot: {
         const auto& light = world.scene.spot_lights[emitter->index];
         const Vec3 w = sample_cone(light, direction[0], direction[1]);
         return SampledEmission{source_vertex(*emitter, light.position, Rgb(1.0 / choice)),
-                               {light.position, w},
+                               {light.position, w, Ray{}.t_max, emitter->on},
                                spot_intensity(light, w) / (choice * pdf_solid_angle_cone(light))};
     }
     case EmitterKind::directional: {

@@ -1,6 +1,7 @@
 #include "ref/transport/emitter.h"
 
 #include "scenes/bounds.h"
+#include "scenes/contacts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ Emitters::Emitters(const Geometry& geometry) : geometry_(&geometry)
 {
     const scenes::Scene& scene = geometry.scene();
     const auto add = [this](EmitterKind kind, std::size_t index, double area, double power) {
-        all_.push_back({kind, static_cast<std::uint32_t>(index), area, power});
+        all_.push_back({kind, static_cast<std::uint32_t>(index), area, power, {}});
     };
 
     if (const auto box = scenes::bounds(scene)) {
@@ -67,6 +68,13 @@ Emitters::Emitters(const Geometry& geometry) : geometry_(&geometry)
         add(EmitterKind::directional, i, 0.0, disc * average(scene.directional_lights[i].irradiance));
     if (scene.environment)
         add(EmitterKind::environment, 0, 0.0, 4.0 * pi * disc * average(*scene.environment));
+
+    for (Emitter& emitter : all_) {
+        if (emitter.kind == EmitterKind::point)
+            emitter.on = scenes::surfaces_at(scene, scene.point_lights[emitter.index].position);
+        if (emitter.kind == EmitterKind::spot)
+            emitter.on = scenes::surfaces_at(scene, scene.spot_lights[emitter.index].position);
+    }
 
     double total = 0.0;
     for (const Emitter& emitter : all_) total += emitter.probability;

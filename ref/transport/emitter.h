@@ -19,8 +19,9 @@ enum class EmitterKind { triangle, sphere, point, directional, spot, environment
 struct Emitter {
     EmitterKind kind;
     std::uint32_t index;
-    double area;        // m^2; 0 where there is no surface
-    double probability; // of being chosen: its share of the power of all emitters
+    double area;                        // m^2; 0 where there is no surface
+    double probability;                 // of being chosen: its share of the power of all emitters
+    std::vector<std::uint32_t> on = {}; // of a point or spot light: surfaces that it lies on
 };
 
 /// Light that may reach a point: the outcome of sampling an emitter for next-event estimation.

@@ -1,7 +1,10 @@
 #include "ref/transport/render.h"
 
+#include "ref/trees/aabb.h"
+
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -54,6 +57,7 @@ public:
         }
         if (error_) std::rethrow_exception(error_);
         if (stopped_) return false;
+        if (dropped_.count > 0 && monitor.dropped) monitor.dropped(dropped_);
         for (std::size_t i = 0; i < sum_.pixels.size(); ++i)
             sum_.pixels[i] =
                 (sum_.pixels[i] + splat_sum_.pixels[i]) / static_cast<double>(options_.batch_size);
@@ -74,8 +78,10 @@ private:
                     stopped_ = true;
                     break;
                 }
-                std::vector<Contribution> splats = sample_tile(tiles_[tile]);
+                golden::Dropped dropped;
+                std::vector<Contribution> splats = sample_tile(tiles_[tile], dropped);
                 const std::scoped_lock lock(mutex_);
+                dropped_ += dropped;
                 waiting_[tile] = std::move(splats);
                 add_splats_in_order();
                 ++tiles_done_;
@@ -93,7 +99,8 @@ private:
 
     /// Adds what the tile's samples show on their own pixels, and returns what they splat on any pixel:
     /// the light image, t = 1. No other thread touches the tile's pixels, nor its layers of t > 1 there.
-    std::vector<Contribution> sample_tile(const Tile& tile)
+    /// What is not finite goes to `dropped`.
+    std::vector<Contribution> sample_tile(const Tile& tile, golden::Dropped& dropped)
     {
         std::vector<Contribution> contributions;
         std::vector<Contribution> splats;
@@ -106,7 +113,9 @@ private:
                     integrator_(world_, options_.path, {options_.path.seed, pixel, sample},
                                 contributions);
                     for (const Contribution& c : contributions) {
-                        if (c.t == 1)
+                        if (!is_finite(c.value) || !std::isfinite(c.weight))
+                            dropped += {1, c.pixel, c.s, c.t};
+                        else if (c.t == 1)
                             splats.push_back(c);
                         else
                             add(c, sum_);
@@ -146,6 +155,7 @@ private:
     std::vector<std::optional<std::vector<Contribution>>> waiting_; // per tile that is done: its splats
     std::size_t next_splats_ = 0;                                   // of the first tile that is not
     golden::Image splat_sum_;
+    golden::Dropped dropped_;
     std::exception_ptr error_;
 };
 

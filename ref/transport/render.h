@@ -2,6 +2,7 @@
 
 // From samples to a picture: batches of samples, tiles of pixels, threads over tiles.
 
+#include "golden/dropped.h"
 #include "golden/image.h"
 #include "ref/transport/strategy_layers.h"
 #include "ref/transport/world.h"
@@ -27,18 +28,21 @@ struct Monitor {
     std::function<void(const golden::Film&)> kept =
         {}; // after each batch, with the film as it stands then
     std::function<void(const golden::Image&)> batch = {}; // each batch's mean, before `kept`
+    /// After a batch of which contributions that are not finite were left out.
+    std::function<void(const golden::Dropped&)> dropped = {};
 };
 
 /// Adds batches to `film`, which may come from an earlier, shorter render, until it holds as many as
 /// asked for or `monitor` says stop; an unfinished batch is dropped. Returns whether it is complete.
 /// The film depends on scene, options and seed alone: not on the number of threads, nor on where the
-/// render was interrupted. `layers`, if there are any, receive the same batches strategy by strategy.
+/// render was interrupted. A contribution that is not finite is left out of film and layers, and
+/// reported to `monitor`. `layers`, if there are any, receive the same batches strategy by strategy.
 /// Throws std::invalid_argument if film, layers and camera differ in size.
 bool render(const World& world, Integrator integrator, const RenderOptions& options, golden::Film& film,
             const Monitor& monitor = {}, StrategyLayers* layers = nullptr);
 
 /// The mean per pixel of the batch `number` alone: what render adds to a film that holds that many
-/// batches. None if `monitor` said stop; its `kept` and `batch` are not called.
+/// batches. None if `monitor` said stop; of it `progress`, `stop` and `dropped` are called.
 std::optional<golden::Image> render_batch(const World& world, Integrator integrator,
                                           const RenderOptions& options, std::uint64_t number,
                                           const Monitor& monitor = {});

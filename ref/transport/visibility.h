@@ -1,10 +1,14 @@
 #pragma once
 
-// Whether two points see each other. Both ends are moved off their surfaces by their own error bounds,
-// so the segment between them is tested whole, with no epsilon at either end.
+// Whether two points see each other. Ends on surfaces are moved off them by their own error bounds, so
+// the segment between them is tested whole, with no epsilon at either end. An end in free space that
+// happens to lie on a surface is not hidden by that surface (scenes/contacts.h).
 
 #include "ref/transport/emitter.h"
 #include "ref/trees/geometry.h"
+
+#include <algorithm>
+#include <span>
 
 namespace ref {
 
@@ -16,19 +20,24 @@ inline bool visible(const Geometry& geometry, const SurfacePoint& a, const Surfa
     return !occluded(geometry, {from, leave_surface(b, -d) - from, 1.0});
 }
 
-/// Whether nothing stands between a point on a surface and one in free space.
-inline bool visible(const Geometry& geometry, const SurfacePoint& a, const Vec3& b)
+/// Whether nothing stands between a point on a surface and one in free space, which lies on the surfaces
+/// `b_on`. A triangle that holds both does not see b: the segment lies in it.
+inline bool visible(const Geometry& geometry, const SurfacePoint& a, const Vec3& b,
+                    std::span<const std::uint32_t> b_on = {})
 {
     const Vec3 from = leave_surface(a, b - a.position);
-    return !occluded(geometry, {from, b - from, 1.0});
+    if (b_on.empty()) return !occluded(geometry, {from, b - from, 1.0});
+    const bool in_plane = a.primitive < geometry.scene().triangles.size() &&
+                          std::ranges::find(b_on, a.primitive) != b_on.end();
+    return !in_plane && !occluded(geometry, {b, from - b, 1.0, b_on});
 }
 
 /// Whether `light`, drawn for the surface at `point`, reaches it.
 inline bool visible(const Geometry& geometry, const SurfacePoint& point, const IncidentLight& light)
 {
     if (light.infinite) return !occluded(geometry, {leave_surface(point, light.wi), light.wi});
-    if (light.delta) return visible(geometry, point, light.end.position);
-    return visible(geometry, point, light.end);
+    if (light.delta) return visible(geometry, point, light.end.position, light.emitter->on);
+    return visible(geometry, point, light.end) && sees_first(geometry, light.end, -light.wi);
 }
 
 } // namespace ref

@@ -10,22 +10,31 @@
 
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 namespace ref {
 
 /// A scene made ready for rendering. Keeps a reference to the scene, which must outlive it and must
-/// have a camera.
+/// have a camera. Throws std::invalid_argument where the scene is so large or small that products of
+/// four lengths would leave the range of doubles: scenes::placed brings it there.
 struct World {
     const scenes::Scene& scene;
     Geometry geometry;
     Emitters emitters;
     Camera camera;
+    std::vector<std::uint32_t> eye_on; // surfaces that the eye lies on
 
     World(const scenes::Scene& source, int width, int height, Builder builder = Builder::sah_leaf)
-        : scene(source), geometry(source, builder), emitters(geometry),
-          camera(source.camera.value(), width, height)
-    {}
+        : scene(source), geometry(source, builder, scenes::coincidences(source)), emitters(geometry),
+          camera(source.camera.value(), width, height),
+          eye_on(scenes::surfaces_at(source, source.camera->eye))
+    {
+        const double size = geometry.diagonal();
+        if (size != 0.0 && !(size > 1e-70 && size < 1e70))
+            throw std::invalid_argument(source.name + ": a scene of this size is out of range: its "
+                                                      "diagonal is not between 1e-70 and 1e70");
+    }
     World(const World&) = delete; // its parts refer to each other
     World& operator=(const World&) = delete;
 };
@@ -37,7 +46,9 @@ inline Ray camera_ray(const World& world, const SampleId& id)
     const std::uint32_t column = id.pixel % width;
     const std::uint32_t row = id.pixel / width;
     const Uniforms u = uniforms(id, Event::camera);
-    return world.camera.ray({column + u[0], row + u[1]});
+    Ray ray = world.camera.ray({column + u[0], row + u[1]});
+    ray.on = world.eye_on;
+    return ray;
 }
 
 inline constexpr int unlimited_edges = std::numeric_limits<int>::max();

@@ -6,15 +6,54 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <utility>
+
 namespace ref {
 
-Geometry::Geometry(const scenes::Scene& scene, Builder builder)
-    : scene_(&scene), tree_(build(primitive_bounds(scene), builder))
+Geometry::Geometry(const scenes::Scene& scene, Builder builder, scenes::Coincidences coincident)
+    : scene_(&scene), tree_(build(primitive_bounds(scene), builder)), coincident_(std::move(coincident))
 {
     if (tree_.nodes.empty()) return;
     const Aabb& box = tree_.bounds[0];
     diagonal_ = glm::length(box.upper - box.lower);
+    const Vec3 farthest = glm::max(glm::abs(box.lower), glm::abs(box.upper));
+    slack_ = scenes::double_rounding * std::max({farthest.x, farthest.y, farthest.z});
 }
+
+namespace {
+
+/// Whether `ray` comes from the side of the normal of `primitive`, which it meets at `t`.
+bool comes_from_front(const scenes::Scene& scene, const Ray& ray, double t, std::uint32_t primitive)
+{
+    if (primitive >= scene.triangles.size()) {
+        const Vec3& center = scene.spheres[primitive - scene.triangles.size()].center;
+        return glm::dot(ray.origin + t * ray.direction - center, ray.direction) < 0;
+    }
+    const auto& v = scene.triangles[primitive].vertices;
+    return glm::dot(glm::cross(v[1] - v[0], v[2] - v[0]), ray.direction) < 0;
+}
+
+/// Of the surfaces that coincide where `hit` is, the hit of the one that `ray` sees (scenes/contacts.h).
+Hit first_of_coincident(const Geometry& geometry, const Ray& ray, const Hit& hit)
+{
+    const scenes::Scene& scene = geometry.scene();
+    const auto order = [&](const Hit& h) {
+        const auto& material = scene.materials[scenes::material_of(scene, h.primitive)];
+        return std::pair(scenes::meeting_rank(material, comes_from_front(scene, ray, h.t, h.primitive)),
+                         h.primitive);
+    };
+    const ShearedRay sheared(ray);
+    Hit first = hit;
+    for (const std::uint32_t other : geometry.coincident().of(hit.primitive)) {
+        std::optional<Hit> candidate = Hit{hit.t, other, Vec3(0)}; // a sphere is met everywhere
+        if (other < scene.triangles.size()) candidate = intersect_primitive(scene, ray, sheared, other);
+        if (candidate && order(*candidate) < order(first)) first = *candidate;
+    }
+    return first;
+}
+
+} // namespace
 
 std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray, Work* work)
 {
@@ -26,7 +65,17 @@ std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray, Work* wor
         return closest ? closest->t : ray.t_max;
     });
     if (work != nullptr) *work += done;
+    if (closest && !geometry.coincident().empty()) return first_of_coincident(geometry, ray, *closest);
     return closest;
+}
+
+bool sees_first(const Geometry& geometry, const SurfacePoint& point, const Vec3& towards)
+{
+    if (geometry.coincident().of(point.primitive).empty()) return true;
+    // From a diagonal away, so that no bound on t is near the surface.
+    const Ray ray{point.position + geometry.diagonal() * towards, -towards};
+    const Hit hit{geometry.diagonal(), point.primitive, Vec3(0)};
+    return first_of_coincident(geometry, ray, hit).primitive == point.primitive;
 }
 
 bool occluded(const Geometry& geometry, const Ray& ray, Work* work)
@@ -69,15 +118,18 @@ bool occluded(const Geometry& geometry, const Ray& ray, Work* work)
 //
 // What no offset can promise: n itself is wrong by an angle of about 4 u times the triangle's aspect
 // ratio (longest edge over smallest height). To which side a direction closer to the surface points is
-// not known. A far end that is no surface (a distant camera or light) needs no offset and gets none.
+// not known. An end that is no surface (a camera, a point light) needs no offset: the surfaces that it
+// lies on are known by name (Ray::on).
 
 namespace {
 
-/// Steps 1 to 4, given the part of step 1 that depends on the shape.
-Vec3 clearance(const Geometry& geometry, const Vec3& position, const Vec3& shape_error)
+/// Steps 1 to 4, given the part of step 1 that depends on the shape; and beyond the surfaces that
+/// coincide with this one.
+Vec3 clearance(const Geometry& geometry, std::uint32_t primitive, const Vec3& position,
+               const Vec3& shape_error)
 {
     return shape_error + 2 * unit_roundoff * glm::abs(position) +
-           16 * unit_roundoff * geometry.diagonal();
+           16 * unit_roundoff * geometry.diagonal() + geometry.coincidence_slack(primitive);
 }
 
 } // namespace
@@ -94,8 +146,8 @@ SurfacePoint triangle_point(const Geometry& geometry, std::uint32_t triangle, co
     point.material = geometry.scene().triangles[triangle].material;
     point.position = v[0] + (b1 * e1 + b2 * e2);
     point.normal = glm::normalize(glm::cross(e1, e2));
-    point.error =
-        clearance(geometry, point.position, gamma_bound(7) * (b1 * glm::abs(e1) + b2 * glm::abs(e2)));
+    point.error = clearance(geometry, triangle, point.position,
+                            gamma_bound(7) * (b1 * glm::abs(e1) + b2 * glm::abs(e2)));
     return point;
 }
 
@@ -107,8 +159,8 @@ SurfacePoint sphere_point(const Geometry& geometry, std::uint32_t sphere, const 
     point.material = s.material;
     point.normal = glm::normalize(direction);
     point.position = s.center + s.radius * point.normal;
-    point.error =
-        clearance(geometry, point.position, gamma_bound(5) * s.radius * glm::abs(point.normal));
+    point.error = clearance(geometry, point.primitive, point.position,
+                            gamma_bound(5) * s.radius * glm::abs(point.normal));
     return point;
 }
 

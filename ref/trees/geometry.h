@@ -5,6 +5,7 @@
 #include "ref/trees/bvh.h"
 #include "ref/trees/ray.h"
 #include "ref/trees/traverse.h"
+#include "scenes/contacts.h"
 
 #include <optional>
 
@@ -14,25 +15,41 @@ namespace ref {
 /// must outlive it. The answers do not depend on the builder, only the time they take.
 class Geometry {
 public:
-    /// Throws std::invalid_argument that names the first primitive with a coordinate that is no number.
-    explicit Geometry(const scenes::Scene& scene, Builder builder = Builder::sah_leaf);
+    /// `coincident`: surfaces that rays meet together (scenes/contacts.h). Where none are named,
+    /// rounding decides which of two coincident surfaces a ray hits. Throws std::invalid_argument that
+    /// names the first primitive with a coordinate that is no number.
+    explicit Geometry(const scenes::Scene& scene, Builder builder = Builder::sah_leaf,
+                      scenes::Coincidences coincident = {});
     [[nodiscard]] const scenes::Scene& scene() const { return *scene_; }
     [[nodiscard]] const Tree& tree() const { return tree_; }
     /// Of the box around all primitives: an upper bound on the distance between two points of surfaces.
     [[nodiscard]] double diagonal() const { return diagonal_; }
+    [[nodiscard]] const scenes::Coincidences& coincident() const { return coincident_; }
+    /// How far from `primitive` the surfaces may lie that coincide with it; 0 if there are none.
+    [[nodiscard]] double coincidence_slack(std::uint32_t primitive) const
+    {
+        return coincident_.of(primitive).empty() ? 0 : slack_;
+    }
 
 private:
     const scenes::Scene* scene_;
     Tree tree_;
+    scenes::Coincidences coincident_;
     double diagonal_ = 0;
+    double slack_ = 0;
 };
 
-/// The hit of smallest t; of several at the same t, that of the lowest primitive number. Adds to `work`,
-/// if there is one, what it took.
+/// The hit of smallest t; of several at the same t, that of the lowest primitive number, and of surfaces
+/// that coincide the one that scenes::meeting_rank puts first. Adds to `work`, if there is one, what it
+/// took.
 std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray, Work* work = nullptr);
 
 /// Whether the ray hits anything at all.
 bool occluded(const Geometry& geometry, const Ray& ray, Work* work = nullptr);
+
+/// Whether a ray that comes from direction `towards` (unit length) sees the surface at `point`, and not
+/// one that coincides with it.
+bool sees_first(const Geometry& geometry, const SurfacePoint& point, const Vec3& towards);
 
 /// The surface at `hit`, which must come from `intersect` on the same geometry and ray.
 SurfacePoint surface_point(const Geometry& geometry, const Ray& ray, const Hit& hit);

@@ -141,4 +141,13 @@ inline std::optional<double> intersect_sphere(const Ray& ray, const Vec3& center
     return std::nullopt;
 }
 
+/// The same for a ray whose origin lies on the sphere: one root of a t^2 - 2 b t is 0, the other 2 b /
+/// a.
+inline std::optional<double> leave_sphere(const Ray& ray, const Vec3& center)
+{
+    const double a = glm::dot(ray.direction, ray.direction);
+    const double t = 2 * (-glm::dot(ray.origin - center, ray.direction) / a);
+    return t > 0 && t < ray.t_max ? std::optional(t) : std::nullopt;
+}
+
 } // namespace ref

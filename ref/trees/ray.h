@@ -7,17 +7,21 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 
 namespace ref {
 
 using scenes::Rgb;
 using scenes::Vec3;
 
-/// The points origin + t * direction with 0 < t < t_max.
+/// The points origin + t * direction with 0 < t < t_max. `on`: primitives on which the origin lies, as
+/// far as rounding can tell (scenes/contacts.h). The ray does not meet them there: a triangle not at
+/// all, a sphere only on its far side.
 struct Ray {
     Vec3 origin;
     Vec3 direction;
     double t_max = std::numeric_limits<double>::infinity();
+    std::span<const std::uint32_t> on = {};
 };
 
 /// Where a ray meets a primitive (numbered as by scenes::primitive_count).

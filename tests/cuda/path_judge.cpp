@@ -105,9 +105,9 @@ std::optional<Judged> PathJudge::light_image(std::size_t s, bool found) const
     if (last.kind == Vertex::Kind::surface) {
         line = line_from(last.point, -w);
         line.to = eye.point.position;
-        seen = visible(world.geometry, last.point, eye.point.position);
+        seen = visible(world.geometry, last.point, eye.point.position, world.eye_on);
     } else {
-        seen = !occluded(world.geometry, {eye.point.position, w});
+        seen = !occluded(world.geometry, {eye.point.position, w, ref::Ray{}.t_max, world.eye_on});
     }
     if (seen != found) explain_sight(world, line, found);
     if (!seen) return std::nullopt;

@@ -1,0 +1,59 @@
+// What a person should know about surfaces that touch; the rules stand in contacts.h.
+
+#include "scenes/contacts.h"
+
+namespace scenes {
+namespace {
+
+std::string describe(const Scene& scene, std::uint32_t primitive)
+{
+    const bool is_triangle = primitive < scene.triangles.size();
+    const std::size_t number = is_triangle ? primitive : primitive - scene.triangles.size();
+    return std::string(is_triangle ? "triangle " : "sphere ") + std::to_string(number + 1) +
+           " (material \"" + scene.material_names[material_of(scene, primitive)] + "\")";
+}
+
+void add_end(std::vector<std::string>& notices, const Scene& scene, const std::string& what,
+             const Vec3& position)
+{
+    const std::vector<std::uint32_t> on = surfaces_at(scene, position);
+    if (on.empty()) return;
+    const std::string others =
+        on.size() > 1 ? " and " + std::to_string(on.size() - 1) + " more surface(s)" : "";
+    notices.push_back(what + " lies on " + describe(scene, on[0]) + others +
+                      ": it is not hidden by what it lies on");
+}
+
+} // namespace
+
+std::vector<std::string> contact_notices(const Scene& scene)
+{
+    std::vector<std::string> notices;
+    if (scene.camera) add_end(notices, scene, "the eye", scene.camera->eye);
+    for (std::size_t i = 0; i < scene.point_lights.size(); ++i)
+        add_end(notices, scene, "point light " + std::to_string(i + 1), scene.point_lights[i].position);
+    for (std::size_t i = 0; i < scene.spot_lights.size(); ++i)
+        add_end(notices, scene, "spot light " + std::to_string(i + 1), scene.spot_lights[i].position);
+
+    bool complete = true;
+    const Coincidences coincident = coincidences(scene, double_rounding, &complete);
+    std::size_t pairs = 0;
+    std::uint32_t first = 0;
+    for (std::uint32_t i = 0; i < primitive_count(scene); ++i)
+        for (const std::uint32_t other : coincident.of(i)) {
+            if (other < i) continue;
+            if (pairs++ == 0) first = i;
+        }
+    if (pairs > 0)
+        notices.push_back(
+            std::to_string(pairs) + " pair(s) of surfaces coincide, first " + describe(scene, first) +
+            " and " + describe(scene, coincident.of(first).back()) +
+            ": a ray sees an emitter from its shining side before an opaque surface, and this before "
+            "glass; of two of one kind the one that comes first in the file");
+    if (!complete)
+        notices.push_back("more than 4096 surfaces overlap in one place: which of those that coincide a "
+                          "ray sees depends on rounding there");
+    return notices;
+}
+
+} // namespace scenes
