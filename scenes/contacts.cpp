@@ -121,7 +121,8 @@ bool coincide(const Triangle& a, const Triangle& b, double on)
 
 bool coincide(const Sphere& a, const Sphere& b, double on)
 {
-    const double largest = std::max({largest_component(a.center), largest_component(b.center), a.radius});
+    const double largest =
+        std::max({largest_component(a.center), largest_component(b.center), a.radius});
     return largest_component(a.center - b.center) <= on * largest &&
            std::abs(a.radius - b.radius) <= on * largest;
 }
@@ -133,8 +134,8 @@ std::vector<Bounds> grown_boxes(const Scene& scene, double on)
     for (const Triangle& t : scene.triangles) {
         const auto& v = t.vertices;
         const Vec3 more(on * largest_coordinate(t));
-        boxes.push_back({glm::min(glm::min(v[0], v[1]), v[2]) - more,
-                         glm::max(glm::max(v[0], v[1]), v[2]) + more});
+        boxes.push_back(
+            {glm::min(glm::min(v[0], v[1]), v[2]) - more, glm::max(glm::max(v[0], v[1]), v[2]) + more});
     }
     for (const Sphere& s : scene.spheres) {
         const Vec3 reach(s.radius + on * (largest_component(s.center) + s.radius));

@@ -27,12 +27,13 @@ namespace scenes {
 /// A surface near a point.
 struct NearSurface {
     std::uint32_t primitive;
-    int side; // 0: the point is on it; 1, -1: it is near, on the side of the normal or on the other
+    int side;    // 0: the point is on it; 1, -1: it is near, on the side of the normal or on the other
     Vec3 normal; // unit geometric normal of the surface where it is nearest
 };
 
 /// How near is on, in units of the larger of a coordinate and an extent.
-inline constexpr double double_rounding = 32 * 0x1p-53; // a dozen products and sums of a node's transforms
+inline constexpr double double_rounding =
+    32 * 0x1p-53; // a dozen products and sums of a node's transforms
 
 /// The surfaces whose distance from `point` is at most `near`, in order of their numbers. The point is
 /// on those from which it is no farther than `on` times the largest coordinate of both. Surfaces without

@@ -78,8 +78,7 @@ private:
                 bool apart = false;
                 for (int axis = 0; axis < 3; ++axis)
                     apart = apart || a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis];
-                if (!apart)
-                    found_(std::min(members[i], members[j]), std::max(members[i], members[j]));
+                if (!apart) found_(std::min(members[i], members[j]), std::max(members[i], members[j]));
             }
         return true;
     }

@@ -106,8 +106,9 @@ void check_spacing(Scene& scene, const Bounds& box)
     const double spacing =
         farthest * std::numeric_limits<double>::epsilon() / glm::length(box.max - box.min);
     if (spacing < coarsest_noticed) return;
-    const std::string what = "the scene lies so far from the origin that its coordinates are rounded to " +
-                             say(spacing) + " of its diagonal";
+    const std::string what =
+        "the scene lies so far from the origin that its coordinates are rounded to " + say(spacing) +
+        " of its diagonal";
     if (!(spacing < coarsest_held))
         throw SceneError(scene.name + ": " + what + ": move it to the origin");
     scene.notices.push_back(what);
@@ -124,7 +125,8 @@ Scene placed(Scene scene)
         const double largest = largest_component(quarter);
         if (!std::isfinite(largest)) throw SceneError(scene.name + ": a sphere reaches to infinity");
         if (largest > 0) {
-            // The diagonal is 4 |quarter|: brought to [1, 2) in two steps, since its square may overflow.
+            // The diagonal is 4 |quarter|: brought to [1, 2) in two steps, since its square may
+            // overflow.
             int exponent = 0;
             int rest = 0;
             std::frexp(largest, &exponent);

@@ -59,4 +59,19 @@ HD inline void add(std::uint64_t& sum, std::uint64_t term)
 #endif
 }
 
+/// Makes `least` the smaller of itself and `value`, and orders nothing else.
+HD inline void take_least(std::uint64_t& least, std::uint64_t value)
+{
+#if defined(__CUDA_ARCH__)
+    cuda::atomic_ref<std::uint64_t, cuda::thread_scope_device>(least).fetch_min(
+        value, cuda::memory_order_relaxed);
+#else
+    if (schedule_point != nullptr) schedule_point();
+    const std::atomic_ref<std::uint64_t> shared(least);
+    std::uint64_t known = shared.load(std::memory_order_relaxed);
+    while (value < known && !shared.compare_exchange_weak(known, value, std::memory_order_relaxed))
+        continue;
+#endif
+}
+
 } // namespace gpu

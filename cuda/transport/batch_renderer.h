@@ -59,6 +59,7 @@ public:
         clear(splats_);
         clear(exact_);
         clear(layers_);
+        clear(dropped_);
         const auto first = static_cast<std::uint32_t>(number * options_.batch_size);
         std::uint64_t done = 0;
         const std::uint64_t all = std::uint64_t{pixels_} * options_.batch_size;
@@ -91,7 +92,7 @@ private:
         : executor_(executor), options_(checked(options)), width_(width), height_(height),
           pixels_(static_cast<std::uint32_t>(width * height)),
           needs_(needs_of(arrays) | options.at_least),
-          scene_(memory, executor, arrays, camera_of(scene, arrays.place, width, height)),
+          scene_(memory, executor, arrays, camera_of(scene, arrays, width, height)),
           capacity_(options_.integrator == Integrator::bdpt
                         ? most_light_vertices(arrays, options_.max_edges)
                         : 0),
@@ -101,7 +102,8 @@ private:
           sums_(memory, pixels_),
           splats_(memory, options.deterministic ? 0 : splat_pictures() * pixels_),
           exact_(memory, options.deterministic ? 3 * splat_pictures() * pixels_ : 0),
-          layers_(memory, options.layers == Layers::none ? 0 : layer_count() * std::size_t{pixels_})
+          layers_(memory, options.layers == Layers::none ? 0 : layer_count() * std::size_t{pixels_}),
+          dropped_(memory, 1)
     {}
 
     static RenderOptions checked(RenderOptions options)
@@ -129,11 +131,8 @@ private:
     void run(const Launch& launch)
     {
         const PathOptions path{options_.seed, options_.max_edges, options_.heuristic};
-        const FilmTarget film{own_.all(),
-                              {splats_.all(), exact_.all()},
-                              layers_.all(),
-                              options_.layers == Layers::weighted,
-                              pixels_};
+        const FilmTarget film{own_.all(),     {splats_.all(), exact_.all()},       layers_.all(),
+                              dropped_.all(), options_.layers == Layers::weighted, pixels_};
         const SampleJob job{path, launch, film, kept_.all(), capacity_};
         switch (options_.integrator) {
         case Integrator::path:
@@ -167,9 +166,18 @@ private:
         return image;
     }
 
+    [[nodiscard]] golden::Dropped dropped() const
+    {
+        const auto [count, key] = dropped_.read(1)[0];
+        if (count == 0) return {};
+        return {count, static_cast<std::uint32_t>(key >> 32), static_cast<int>(key >> 16 & 0xffff),
+                static_cast<int>(key & 0xffff)};
+    }
+
     [[nodiscard]] Batch collect() const
     {
         Batch batch;
+        batch.dropped = dropped();
         batch.mean = splats(0);
         const std::vector<Rgb> own = sums_.read(pixels_);
         for (std::size_t i = 0; i < pixels_; ++i)
@@ -205,6 +213,7 @@ private:
     Buffer<Rgb> splats_;
     Buffer<ExactSum> exact_;
     Buffer<Rgb> layers_;
+    Buffer<DroppedCount> dropped_;
 };
 
 } // namespace gpu

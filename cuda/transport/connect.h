@@ -68,7 +68,11 @@ HD void light_image(const SceneView<needs>& scene, const PathOptions& options, i
     const float cosine = glm::dot(facing, w);
     std::uint32_t pixel = 0;
     if (!(cosine > 0.0f) || is_black(alpha) || !scene.camera.project(-w, pixel)) return;
-    if (!visible(scene, leave_surface(point, w), scene.camera.eye)) return;
+    if (lies_on(scene, scene.eye_contacts, point.primitive)) return;
+    if (s == 1 && !sees_first(scene, point, w)) return;
+    if (!visible(scene, leave_surface(point, w),
+                 leave_end(scene, scene.camera.eye, scene.eye_contacts, -w)))
+        return;
     // The density of y_{s-1} for the eye walk; and the measurement, since W_e cos is that density.
     const float E = scene.camera.pdf_solid_angle(scene.camera.cosine(-w)) * cosine * spread;
     const float S = integrator == Integrator::light ? 0.0f : shared(options.heuristic, E / own) * inner;
@@ -82,7 +86,8 @@ HD void light_image_of_infinity(const SceneView<needs>& scene, const PathOptions
 {
     std::uint32_t pixel = 0;
     if (!scene.camera.project(towards, pixel)) return;
-    if (any_hit(scene.geometry, {scene.camera.eye, std::numeric_limits<float>::infinity(), towards}))
+    if (any_hit(scene.geometry, {leave_end(scene, scene.camera.eye, scene.eye_contacts, towards),
+                                 std::numeric_limits<float>::infinity(), towards}))
         return;
     const float E = scene.camera.pdf_solid_angle(scene.camera.cosine(towards));
     const float S = integrator == Integrator::light ? 0.0f : shared(options.heuristic, E / own);
@@ -113,8 +118,8 @@ HD int light_subpath(const SceneView<needs>& scene, const PathOptions& options, 
     const bool on_surface = is_surface<needs>(emitter);
     // What leaves an emitting surface has that surface's cosine; at infinity there is none.
     const float cosine = on_surface ? emission.pdf_direction * pi : 1.0f;
-    const Leg leg{emission.ray, on_surface ? emission.end.position : emission.ray.origin, infinite,
-                  emission.pdf_direction, hittable ? cosine / own : 0.0f};
+    const Leg leg{emission.ray, emission.end.position, infinite, emission.pdf_direction,
+                  hittable ? cosine / own : 0.0f};
     int count = 0;
     const int most_vertices = integrator == Integrator::bdpt
                                   ? glm::min(options.max_edges, kept.capacity + 1)
@@ -177,6 +182,10 @@ HD void next_event(const SceneView<needs>& scene, const PathOptions& options, co
     if (!(cosine > 0.0f) || is_black(value)) return;
     const Vec3 from = leave_surface(z.point, light.wi);
     const Emitter& emitter = scene.emitters[light.emitter];
+    if (is_surface<needs>(emitter)
+            ? !sees_first(scene, light.end, -light.wi)
+            : lies_on(scene, scene.lights[light.emitter].contacts, z.point.primitive))
+        return;
     if (at_infinity<needs>(emitter)
             ? any_hit(scene.geometry, {from, std::numeric_limits<float>::infinity(), light.wi})
             : !visible(scene, from, light.target))
@@ -229,7 +238,8 @@ HD void eye_subpath(const SceneView<needs>& scene, const PathOptions& options, c
     const Uniforms u = uniforms(id, Event::camera);
     const Vec3 direction =
         scene.camera.direction(static_cast<float>(column) + u[0], static_cast<float>(row) + u[1]);
-    const Leg leg{{scene.camera.eye, std::numeric_limits<float>::infinity(), direction},
+    const Leg leg{{leave_end(scene, scene.camera.eye, scene.eye_contacts, direction),
+                   std::numeric_limits<float>::infinity(), direction},
                   scene.camera.eye,
                   false,
                   scene.camera.pdf_solid_angle(scene.camera.cosine(direction)),

@@ -4,6 +4,7 @@
 // of light walks. Densities are those of the reference; each is per area on a surface unless its name
 // says otherwise.
 
+#include "cuda/transport/contacts.h"
 #include "cuda/transport/scene_view.h"
 #include "cuda/transport/surface_point.h"
 
@@ -151,7 +152,7 @@ HD bool sample_incident(const SceneView<needs>& scene, const Vec3& from, const U
             const Vec3 d = source.position - from;
             light.spread = 1.0f / glm::dot(d, d);
             light.wi = d * std::sqrt(light.spread);
-            light.target = source.position;
+            light.target = leave_end(scene, source.position, source.contacts, -d);
             light.alpha *= light.spread;
             light.pdf_direction = pdf_solid_angle_sphere;
             if (emitter.kind == EmitterKind::spot) {
@@ -169,7 +170,7 @@ struct SampledEmission {
     Ray ray;             // from y_0, or from far outside, into the scene
     Rgb alpha;           // weight of the vertex that the ray will find
     float pdf_direction; // of the ray: per solid angle, or per area across it from infinity
-    SurfacePoint end;    // y_0, of a surface
+    SurfacePoint end;    // y_0, of a surface; of a point or spot light the position alone
     Vec3 towards;        // of one at infinity: the unit direction from the scene to it
 };
 
@@ -190,8 +191,9 @@ HD SampledEmission sample_emission(const SceneView<needs>& scene, const Uniforms
         const Vec3 w = glm::normalize(Frame(emission.end.normal).to_world(w_local));
         emission.ray = {leave_surface(emission.end, w), infinity, w};
         emission.pdf_direction = glm::max(0.0f, glm::dot(emission.end.normal, w)) * inverse_pi;
-        // L cos / (p_A cos / pi)
-        emission.alpha = emitter.emitted * (pi * emitter.area / emitter.probability);
+        // L cos / (p_A cos / pi); none where another emitter covers this one
+        if (sees_first(scene, emission.end, w))
+            emission.alpha = emitter.emitted * (pi * emitter.area / emitter.probability);
         return emission;
     }
     if constexpr (needs.other_lights) {
@@ -216,7 +218,8 @@ HD SampledEmission sample_emission(const SceneView<needs>& scene, const Uniforms
                 emission.pdf_direction = pdf_solid_angle_cone(light);
                 emission.alpha *= spot_falloff(light, w);
             }
-            emission.ray = {light.position, infinity, w};
+            emission.end.position = light.position;
+            emission.ray = {leave_end(scene, light.position, light.contacts, w), infinity, w};
         }
         emission.alpha = (at_infinity<needs>(emitter) ? emitter.emitted : emission.alpha) /
                          (pdf_emission_position<needs>(emitter) * emission.pdf_direction);

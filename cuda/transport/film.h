@@ -4,6 +4,7 @@
 
 #include "cuda/transport/exact_sum.h"
 #include "cuda/transport/sampling.h"
+#include "cuda/trees/box.h"
 
 #include <span>
 
@@ -32,13 +33,28 @@ struct SplatTarget {
     }
 };
 
+/// What was left out because it is not finite: how many contributions, and the least of their keys.
+struct DroppedCount {
+    std::uint64_t count = 0;
+    std::uint64_t least_key = ~std::uint64_t{0};
+};
+
+/// The place of a contribution in the order of (pixel, s, t); walks of more than 65,535 vertices share
+/// one.
+HD constexpr std::uint64_t dropped_key(std::uint32_t pixel, int s, int t)
+{
+    const auto part = [](int n) { return static_cast<std::uint64_t>(n < 0xffff ? n : 0xffff); };
+    return std::uint64_t{pixel} << 32 | part(s) << 16 | part(t);
+}
+
 /// What a launch of samples writes to.
 struct FilmTarget {
     std::span<Rgb> own; // by index of the launch: what the sample adds to its own pixel
     SplatTarget splats;
     std::span<Rgb> layers; // strategy after strategy, a picture each; none: they are not wanted
-    bool weighted;         // layers
-    std::uint32_t pixels;  // of the picture
+    std::span<DroppedCount> dropped; // one
+    bool weighted;                   // layers
+    std::uint32_t pixels;            // of the picture
 };
 
 /// Takes the contributions of one sample.
@@ -49,6 +65,7 @@ public:
     /// To the sample's own pixel.
     HD void add(int s, int t, const Rgb& value, float weight)
     {
+        if (drop(pixel_, s, t, value, weight)) return;
         own_ += weight * value;
         // Only one sample of a pixel is under way when there are layers, so nobody else adds here.
         if (!target_.layers.empty())
@@ -57,6 +74,7 @@ public:
     /// To any pixel, with t = 1.
     HD void splat(std::uint32_t pixel, int s, const Rgb& value, float weight)
     {
+        if (drop(pixel, s, 1, value, weight)) return;
         target_.splats.add(pixel, weight * value);
         if (!target_.layers.empty())
             target_.splats.add(place(static_cast<std::uint32_t>(s), pixel),
@@ -65,6 +83,15 @@ public:
     [[nodiscard]] HD const Rgb& own() const { return own_; }
 
 private:
+    /// Whether it is not finite, and so must not reach the picture.
+    HD bool drop(std::uint32_t pixel, int s, int t, const Rgb& value, float weight)
+    {
+        if (is_finite(value) && std::isfinite(weight)) return false;
+        DroppedCount& dropped = target_.dropped[0];
+        gpu::add(dropped.count, std::uint64_t{1});
+        take_least(dropped.least_key, dropped_key(pixel, s, t));
+        return true;
+    }
     [[nodiscard]] HD std::size_t place(std::uint32_t picture, std::uint32_t pixel) const
     {
         return static_cast<std::size_t>(picture) * target_.pixels + pixel;
@@ -87,7 +114,7 @@ struct SumSamples {
     }
 };
 
-/// Kernel over elements: all bytes zero.
+/// Kernel over elements: each gets its default value, which is 0 for numbers.
 template <class T>
 struct Clear {
     std::span<T> elements;

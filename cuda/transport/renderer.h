@@ -4,6 +4,7 @@
 
 #include "cuda/transport/mis_weight.h"
 #include "cuda/transport/needs.h"
+#include "golden/dropped.h"
 #include "golden/image.h"
 #include "scenes/scene.h"
 
@@ -47,6 +48,7 @@ struct Monitor {
 struct Batch {
     golden::Image mean;
     std::map<std::pair<int, int>, golden::Image> layers;
+    golden::Dropped dropped; // contributions that are not finite, which are in neither
 };
 
 /// A scene made ready in the memory of a device.

@@ -1,5 +1,6 @@
 #include "cuda/transport/scene_arrays.h"
 
+#include "cuda/transport/contact_arrays.h"
 #include "scenes/bounds.h"
 
 #include <algorithm>
@@ -163,21 +164,22 @@ SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
         arrays.materials.push_back(material_of(material, roulette));
     for (std::uint32_t i = 0; i < scenes::primitive_count(scene); ++i) {
         const std::uint32_t material = scenes::material_of(scene, i);
-        arrays.surfaces.push_back({material, no_emitter});
+        arrays.surfaces.push_back({material, no_emitter, 0, 0});
         if (arrays.materials[material].kind != MaterialKind::emission)
             arrays.largest_survival =
                 std::max(arrays.largest_survival, arrays.materials[material].survival);
     }
     add_emitters(arrays, scene, radius);
+    add_contacts(arrays, scene);
     return arrays;
 }
 
-Camera camera_of(const scenes::Scene& scene, const Placement& place, int width, int height)
+Camera camera_of(const scenes::Scene& scene, const SceneArrays& arrays, int width, int height)
 {
     const scenes::Camera& source = scene.camera.value();
     const int across = source.fov_axis == scenes::FovAxis::horizontal ? width : height;
     const double pixel_size = 2.0 * std::tan(source.fov / 2.0) / across;
-    return {place(source.eye),
+    return {arrays.eye,
             Vec3(source.right),
             Vec3(source.up),
             Vec3(source.backward),

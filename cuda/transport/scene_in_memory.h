@@ -17,8 +17,11 @@ public:
           surfaces_(memory, std::span(arrays.surfaces)), materials_(memory, std::span(arrays.materials)),
           emitters_(memory, std::span(arrays.emitters)),
           cumulative_(memory, std::span(arrays.cumulative)), lights_(memory, std::span(arrays.lights)),
-          has_environment_(arrays.has_environment), radius_(arrays.radius), diagonal_(arrays.diagonal),
-          camera_(camera)
+          coincident_(memory, std::span(arrays.coincident)),
+          contact_planes_(memory, std::span(arrays.contact_planes)),
+          contact_triangles_(memory, std::span(arrays.contact_triangles)),
+          eye_contacts_(arrays.eye_contacts), has_environment_(arrays.has_environment),
+          radius_(arrays.radius), diagonal_(arrays.diagonal), camera_(camera)
     {}
 
     template <Needs needs>
@@ -32,6 +35,10 @@ public:
                 emitters_.all(),
                 cumulative_.all(),
                 lights_.all(),
+                coincident_.all(),
+                contact_planes_.all(),
+                contact_triangles_.all(),
+                eye_contacts_,
                 has_environment_,
                 radius_,
                 diagonal_,
@@ -47,6 +54,10 @@ private:
     Buffer<Emitter> emitters_;
     Buffer<float> cumulative_;
     Buffer<Light> lights_;
+    Buffer<Coincident> coincident_;
+    Buffer<ContactPlane> contact_planes_;
+    Buffer<std::uint32_t> contact_triangles_;
+    EndContacts eye_contacts_;
     bool has_environment_;
     float radius_, diagonal_;
     Camera camera_;

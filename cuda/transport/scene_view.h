@@ -24,17 +24,38 @@ struct Emitter {
     Rgb emitted;       // radiance; intensity of point and spot; irradiance of a directional light
 };
 
+/// What an end of paths that is no surface lies on: ranges of SceneView::contact_planes and
+/// contact_triangles, mostly empty.
+struct EndContacts {
+    std::uint32_t first_plane, plane_count;
+    std::uint32_t first_triangle, triangle_count;
+};
+
+/// A plane through such an end. Adding `push` moves a point far enough to the side of `normal`, and
+/// along the other planes of the end.
+struct ContactPlane {
+    Vec3 normal, push;
+};
+
 /// A light of no extent, or at infinity.
 struct Light {
     Vec3 position;  // of point and spot
     Vec3 direction; // unit: in which it travels, or the spot's axis
     float cos_cutoff, exponent;
+    EndContacts contacts = {}; // of point and spot
 };
 
 /// What shading must know of a primitive.
 struct Surface {
     std::uint32_t material;
-    std::uint32_t emitter; // or no_emitter
+    std::uint32_t emitter;                            // or no_emitter
+    std::uint32_t first_coincident, coincident_count; // range of SceneView::coincident
+};
+
+/// A surface that coincides with another one, as far as floats can tell.
+struct Coincident {
+    std::uint32_t primitive;
+    std::int32_t side; // of the other one, on which it lies: 1 that of the normal; 0: on it
 };
 
 template <Needs needs>
@@ -47,6 +68,10 @@ struct SceneView {
     std::span<const Emitter> emitters; // the environment is the last
     std::span<const float> cumulative; // of their probabilities; none if all are 0
     std::span<const Light> lights;     // by emitter: its light, if it is one
+    std::span<const Coincident> coincident;
+    std::span<const ContactPlane> contact_planes;
+    std::span<const std::uint32_t> contact_triangles;
+    EndContacts eye_contacts;
     bool has_environment;
     float radius;   // of a sphere around all geometry, the centre of which is the origin
     float diagonal; // of the box around all geometry

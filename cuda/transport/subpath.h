@@ -65,12 +65,13 @@ HD void walk(const SceneView<needs>& scene, const PathOptions& options, const Sa
             else
                 sums.advance(joinable, other, survival, back, own, options.heuristic);
         };
-        const Hit hit = closest_hit(scene.geometry, leg.ray);
+        Hit hit = closest_hit(scene.geometry, leg.ray);
         if (hit.primitive == no_primitive) {
             carry_sums(leg.cosine_over_own, leg.pdf);
             on_miss(leg, n, alpha, previous_joinable, sums);
             return;
         }
+        hit = first_of_coincident(scene, leg.ray, hit);
         const SurfacePoint point = surface_point(scene, leg.ray, hit);
         const Surface surface = scene.surfaces[point.primitive];
         const Material material = scene.materials[surface.material];

@@ -47,7 +47,8 @@ Place any_place()
 }
 
 /// The two triangles of a rectangle in the plane at height `c`.
-void add_rectangle(Scene& scene, const Place& place, double a0, double b0, double a1, double b1, double c)
+void add_rectangle(Scene& scene, const Place& place, double a0, double b0, double a1, double b1,
+                   double c)
 {
     const Vec3 v[] = {place(a0, b0, c), place(a1, b0, c), place(a1, b1, c), place(a0, b1, c)};
     scene.triangles.push_back({{v[0], v[1], v[2]}, 0});
@@ -67,9 +68,9 @@ RC_GTEST_PROP(Coincidences, ALampInItsWallCoincidesWithWhatItOverlapsAndNeighbou
 {
     Scene scene;
     const Place place = any_place();
-    add_rectangle(scene, place, -2, -2, 2, 2, 0);           // 0, 1: parted by the diagonal
-    add_rectangle(scene, place, 2, -2, 3, 2, 0);            // 2, 3: goes on beside it
-    add_rectangle(scene, place, 0.5, -0.9, 1.5, -0.2, 0);   // 4, 5: a lamp on the right of the diagonal
+    add_rectangle(scene, place, -2, -2, 2, 2, 0);            // 0, 1: parted by the diagonal
+    add_rectangle(scene, place, 2, -2, 3, 2, 0);             // 2, 3: goes on beside it
+    add_rectangle(scene, place, 0.5, -0.9, 1.5, -0.2, 0);    // 4, 5: a lamp on the right of the diagonal
     add_rectangle(scene, place, 0.5, -0.9, 1.5, -0.2, 1e-9); // 6, 7: clearly in front of it
     const auto pairs = pairs_of(scenes::coincidences(scene), 8);
     const std::set<std::pair<std::uint32_t, std::uint32_t>> expected = {{0, 4}, {0, 5}, {4, 0}, {5, 0}};
@@ -132,8 +133,8 @@ RC_GTEST_PROP(OverlappingBoxes, AreThoseThatComparingAllPairsFinds, ())
             if (!apart) expected.emplace(i, j);
         }
     std::set<std::pair<std::uint32_t, std::uint32_t>> found;
-    RC_ASSERT(scenes::for_each_overlap(
-        boxes, [&](std::uint32_t a, std::uint32_t b) { found.emplace(a, b); }));
+    RC_ASSERT(
+        scenes::for_each_overlap(boxes, [&](std::uint32_t a, std::uint32_t b) { found.emplace(a, b); }));
     RC_ASSERT(found == expected);
 }
 
@@ -202,9 +203,12 @@ TEST(ContactNotices, NameWhatTouches)
     EXPECT_TRUE(scenes::contact_notices(scene).empty());
     scene.triangles.push_back({{Vec3(0.5, 0, 0), Vec3(0.6, 0, 0), Vec3(0.6, 0.1, 0)}, 1});
     scene.point_lights.push_back({Vec3(-0.5, 0, 0), scenes::Rgb(1)});
-    scene.camera = scenes::Camera{Vec3(0.2, 0.5, 0), Vec3(1, 0, 0),
-                                  Vec3(0, 1, 0),     Vec3(0, 0, 1),
-                                  scenes::FovAxis::horizontal, 1.0};
+    scene.camera = scenes::Camera{Vec3(0.2, 0.5, 0),
+                                  Vec3(1, 0, 0),
+                                  Vec3(0, 1, 0),
+                                  Vec3(0, 0, 1),
+                                  scenes::FovAxis::horizontal,
+                                  1.0};
     const std::vector<std::string> notices = scenes::contact_notices(scene);
     ASSERT_EQ(notices.size(), 3u);
     EXPECT_EQ(notices[0],

@@ -30,8 +30,12 @@ Scene small_scene()
     scene.spheres.push_back({Vec3(0.7, 0.3, 1.1), 0.4, 1});
     scene.point_lights.push_back({Vec3(0.2, 0.9, 2.0), Rgb(1.0, 2.0, 3.0)});
     scene.spot_lights.push_back({Vec3(0.3, 0.1, 1.0), Vec3(0, 0, -1), Rgb(4.0, 5.0, 6.0), 0.5, 2.0});
-    scene.camera = scenes::Camera{Vec3(0.5, -3.0, 0.7), Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0, -1, 0),
-                                  scenes::FovAxis::horizontal, 1.0};
+    scene.camera = scenes::Camera{Vec3(0.5, -3.0, 0.7),
+                                  Vec3(1, 0, 0),
+                                  Vec3(0, 0, 1),
+                                  Vec3(0, -1, 0),
+                                  scenes::FovAxis::horizontal,
+                                  1.0};
     return scene;
 }
 

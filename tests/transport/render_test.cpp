@@ -1,12 +1,14 @@
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 #include "ref/transport/render.h"
+#include "tests/transport/changed_scene.h"
 #include "tests/transport/scene_files.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <atomic>
+#include <limits>
 #include <stdexcept>
 
 namespace {
@@ -130,6 +132,54 @@ TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel)
     };
     const golden::Film film = rendered(one_each, 2, 2);
     for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(0.5, 1.0, 2.0));
+}
+
+/// One finite contribution; and for every third pixel one that is not, to its own pixel or as a splat.
+void sometimes_not_finite(const ref::World& /*world*/, const ref::PathOptions& /*options*/,
+                          const ref::SampleId& id, std::vector<Contribution>& out)
+{
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    out.push_back({id.pixel, 0, 2, Rgb(1.0), 1.0});
+    if (id.pixel % 3 != 1) return;
+    if (id.pixel % 2 == 0)
+        out.push_back({id.pixel, 1, 2, Rgb(1.0, infinity, 1.0), 0.5});
+    else
+        out.push_back({id.pixel, 2, 1, Rgb(1.0), nan});
+}
+
+TEST(Render, LeavesOutWhatIsNotFiniteAndSaysHowMuch)
+{
+    const ref::World world(scene(), width, height);
+    for (const unsigned threads : {1u, 4u}) {
+        golden::Film film(width, height);
+        ref::StrategyLayers layers(width, height, 3, false);
+        golden::Dropped dropped;
+        int reports = 0;
+        ref::Monitor monitor;
+        monitor.dropped = [&](const golden::Dropped& of_batch) {
+            dropped += of_batch;
+            ++reports;
+        };
+        ASSERT_TRUE(ref::render(world, sometimes_not_finite, {{.seed = 1}, 3, 2, threads}, film, monitor,
+                                &layers));
+        for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(1.0));
+        EXPECT_EQ(layers.means().size(), 1u); // (0, 2) alone: the others found nothing that is finite
+        EXPECT_EQ(reports, 3);
+        EXPECT_EQ(dropped.count, 3u * 2u * (width * height / 3));
+        EXPECT_EQ(
+            golden::describe(dropped, width).substr(5),
+            "contribution(s) are not finite and were left out, the first at pixel (1, 0) by strategy "
+            "s2t1")
+            << golden::describe(dropped, width);
+    }
+}
+
+TEST(Render, RefusesAWorldOfWhichProductsOfLengthsOverflow)
+{
+    for (const double factor : {1e100, 1e-100})
+        EXPECT_THROW(ref::World(tests::scaled(scene(), factor), width, height), std::invalid_argument);
+    EXPECT_NO_THROW(ref::World(tests::scaled(scene(), 1e60), width, height));
 }
 
 TEST(Render, PassesOnWhatAnIntegratorThrows)

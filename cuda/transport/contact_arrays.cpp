@@ -1,0 +1,175 @@
+#include "cuda/transport/contact_arrays.h"
+
+#include "cuda/trees/rounding.h"
+#include "scenes/contacts.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gpu {
+
+namespace {
+
+/// How far apart surfaces may be that coincide as floats, in units of a coordinate: each coordinate of
+/// each is rounded once, and the distance of their planes by sqrt(3) times that.
+constexpr double float_rounding = 4 * unit_roundoff;
+
+/// How far from a plane a ray must begin, in units of the scene's diagonal D <= 2: a segment may err by
+/// 12.4 u D (clearance.h, step 3), the plane and the end by sqrt(3) u D / 2 each, the sum that is the
+/// origin by u D / 2.
+constexpr double plane_clearance = 16 * unit_roundoff;
+/// The same for a sphere (step 4: 24 u D).
+constexpr double sphere_clearance = 32 * unit_roundoff;
+
+/// The scene where the arrays have it, in double precision. Its materials and names are left out.
+scenes::Scene moved(const scenes::Scene& scene, const Placement& place)
+{
+    scenes::Scene result;
+    result.triangles = scene.triangles;
+    result.spheres = scene.spheres;
+    const auto move = [&](scenes::Vec3& x) { x = (x - place.origin) * place.scale; };
+    for (auto& triangle : result.triangles)
+        for (scenes::Vec3& v : triangle.vertices) move(v);
+    for (auto& sphere : result.spheres) {
+        move(sphere.center);
+        sphere.radius *= place.scale;
+    }
+    return result;
+}
+
+/// On which side of triangle `a` the middle of triangle `b` is: 1 that of the normal.
+int side_of(const scenes::Triangle& a, const scenes::Triangle& b)
+{
+    const auto& v = a.vertices;
+    const scenes::Vec3 middle = (b.vertices[0] + b.vertices[1] + b.vertices[2]) / 3.0;
+    const double height = glm::dot(glm::cross(v[1] - v[0], v[2] - v[0]), middle - v[0]);
+    return height < 0 ? -1 : height > 0 ? 1 : 0;
+}
+
+void add_coincident(SceneArrays& arrays, const scenes::Scene& scene, const scenes::Scene& here)
+{
+    const scenes::Coincidences in_floats = scenes::coincidences(here, float_rounding);
+    if (in_floats.empty()) return;
+    const scenes::Coincidences in_doubles = scenes::coincidences(scene);
+    const auto triangles = static_cast<std::uint32_t>(here.triangles.size());
+    for (std::uint32_t i = 0; i < scenes::primitive_count(here); ++i) {
+        arrays.surfaces[i].first_coincident = static_cast<std::uint32_t>(arrays.coincident.size());
+        for (const std::uint32_t other : in_floats.of(i)) {
+            int side = 0;
+            if (!std::ranges::binary_search(in_doubles.of(i), other))
+                side = i < triangles ? side_of(here.triangles[i], here.triangles[other])
+                       : here.spheres[other - triangles].radius < here.spheres[i - triangles].radius ? -1
+                                                                                                    : 1;
+            arrays.coincident.push_back({other, side});
+        }
+        arrays.surfaces[i].coincident_count = static_cast<std::uint32_t>(in_floats.of(i).size());
+    }
+}
+
+/// A plane that an end lies on or near.
+struct Plane {
+    scenes::Vec3 normal;
+    int side; // 0: on it
+    double clearance;
+};
+
+/// Up to three planes whose normals are independent: those that the end is on first. A plane that is
+/// nearly parallel to one of them is the same plane; a fourth is left out.
+std::vector<Plane> independent(std::vector<Plane> planes)
+{
+    std::ranges::stable_sort(planes, {}, [](const Plane& plane) { return plane.side != 0; });
+    std::vector<Plane> result;
+    for (const Plane& plane : planes) {
+        scenes::Vec3 rest = plane.normal;
+        std::vector<scenes::Vec3> basis; // orthonormal, of those that are in
+        for (const Plane& known : result) {
+            scenes::Vec3 axis = known.normal;
+            for (const scenes::Vec3& b : basis) axis -= glm::dot(axis, b) * b;
+            basis.push_back(glm::normalize(axis));
+        }
+        for (const scenes::Vec3& b : basis) rest -= glm::dot(rest, b) * b;
+        if (glm::length(rest) > 1e-3) result.push_back(plane);
+    }
+    return result;
+}
+
+/// The vectors m_i in the span of the normals n_j with dot(m_i, n_j) = 1 for i = j and 0 else: a step along
+/// m_i changes the distance from plane i alone.
+std::vector<scenes::Vec3> dual_basis(const std::vector<Plane>& planes)
+{
+    std::vector<scenes::Vec3> dual;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        scenes::Vec3 m = planes[i].normal;
+        std::vector<scenes::Vec3> basis; // orthonormal, of the other normals
+        for (std::size_t j = 0; j < planes.size(); ++j) {
+            if (j == i) continue;
+            scenes::Vec3 axis = planes[j].normal;
+            for (const scenes::Vec3& b : basis) axis -= glm::dot(axis, b) * b;
+            basis.push_back(glm::normalize(axis));
+        }
+        for (const scenes::Vec3& b : basis) m -= glm::dot(m, b) * b;
+        dual.push_back(m / glm::dot(m, planes[i].normal));
+    }
+    return dual;
+}
+
+/// What an end at `position`, in the coordinates of the arrays, touches; moves `rounded`, which is the same
+/// end as floats, off what it does not.
+EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& here, const scenes::Vec3& position,
+                        Vec3& rounded)
+{
+    const double near = plane_clearance * arrays.diagonal;
+    EndContacts contacts{};
+    contacts.first_plane = static_cast<std::uint32_t>(arrays.contact_planes.size());
+    contacts.first_triangle = static_cast<std::uint32_t>(arrays.contact_triangles.size());
+    std::vector<Plane> planes;
+    for (const scenes::NearSurface& surface : scenes::surfaces_near(here, position, near)) {
+        const bool is_triangle = surface.primitive < here.triangles.size();
+        planes.push_back({surface.normal, surface.side,
+                          (is_triangle ? plane_clearance : sphere_clearance) * arrays.diagonal});
+        if (is_triangle && surface.side == 0) arrays.contact_triangles.push_back(surface.primitive);
+    }
+    planes = independent(std::move(planes));
+    const std::vector<scenes::Vec3> dual = dual_basis(planes);
+    scenes::Vec3 moved_to = position;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const scenes::Vec3 push = planes[i].clearance * dual[i];
+        if (planes[i].side == 0)
+            arrays.contact_planes.push_back({Vec3(planes[i].normal), Vec3(push)});
+        else
+            moved_to += static_cast<double>(planes[i].side) * push;
+    }
+    rounded = Vec3(moved_to);
+    contacts.plane_count =
+        static_cast<std::uint32_t>(arrays.contact_planes.size()) - contacts.first_plane;
+    contacts.triangle_count =
+        static_cast<std::uint32_t>(arrays.contact_triangles.size()) - contacts.first_triangle;
+    return contacts;
+}
+
+} // namespace
+
+void add_contacts(SceneArrays& arrays, const scenes::Scene& scene)
+{
+    const scenes::Scene here = moved(scene, arrays.place);
+    add_coincident(arrays, scene, here);
+    const auto placed = [&](const scenes::Vec3& x) {
+        return (x - arrays.place.origin) * arrays.place.scale;
+    };
+    for (std::size_t i = 0; i < arrays.emitters.size(); ++i) {
+        const Emitter& emitter = arrays.emitters[i];
+        Light& light = arrays.lights[i];
+        if (emitter.kind == EmitterKind::point)
+            light.contacts = contacts_of(
+                arrays, here, placed(scene.point_lights[emitter.index].position), light.position);
+        if (emitter.kind == EmitterKind::spot)
+            light.contacts = contacts_of(arrays, here,
+                                         placed(scene.spot_lights[emitter.index].position), light.position);
+    }
+    if (!scene.camera) return;
+    arrays.eye_contacts = contacts_of(arrays, here, placed(scene.camera->eye), arrays.eye);
+}
+
+} // namespace gpu

@@ -1,0 +1,96 @@
+#pragma once
+
+// Surfaces that coincide, and the eye, point and spot lights on surfaces: what rounding cannot decide is
+// decided by the rules of scenes/contacts.h. Both cost a test of a count where a scene has none.
+
+#include "cuda/transport/surface_point.h"
+
+namespace gpu {
+
+/// Where a ray that leaves an end of a path in `direction` begins: beyond the surfaces that the end lies
+/// on, so that it does not meet them; and where a segment ends that comes to it from there.
+template <Needs needs>
+HD Vec3 leave_end(const SceneView<needs>& scene, const Vec3& position, const EndContacts& contacts,
+                  const Vec3& direction)
+{
+    Vec3 origin = position;
+    for (std::uint32_t i = 0; i < contacts.plane_count; ++i) {
+        const ContactPlane& plane = scene.contact_planes[contacts.first_plane + i];
+        origin += glm::dot(direction, plane.normal) < 0.0f ? -plane.push : plane.push;
+    }
+    return origin;
+}
+
+/// Whether the end lies on that triangle: nothing passes between the end and a point of it.
+template <Needs needs>
+HD bool lies_on(const SceneView<needs>& scene, const EndContacts& contacts, std::uint32_t primitive)
+{
+    for (std::uint32_t i = 0; i < contacts.triangle_count; ++i)
+        if (scene.contact_triangles[contacts.first_triangle + i] == primitive) return true;
+    return false;
+}
+
+/// How a ray along `direction` ranks a surface with that normal, see scenes::meeting_rank.
+HD inline std::uint32_t meeting_rank(const Material& material, bool from_front)
+{
+    if (material.kind == MaterialKind::emission) return from_front ? 0 : 3;
+    return material.kind == MaterialKind::glass ? 2 : 1;
+}
+
+/// Of the surfaces that coincide where `ray` has `hit`, the hit of the one that it sees: what it meets
+/// first where floats cannot tell and doubles can; else that of the lowest rank; else of the lowest number.
+template <Needs needs>
+HD Hit first_of_coincident(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
+{
+    const Surface surface = scene.surfaces[hit.primitive];
+    if (surface.coincident_count == 0) return hit;
+    const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
+    const auto from_front = [&](const Hit& h) {
+        if (h.primitive >= triangles)
+            return glm::dot(ray.origin + h.t * ray.direction - scene.spheres[h.primitive - triangles].center,
+                            ray.direction) < 0.0f;
+        const auto& v = scene.triangles[h.primitive].vertices;
+        return glm::dot(unit_normal(v[1] - v[0], v[2] - v[0]), ray.direction) < 0.0f;
+    };
+    const auto rank = [&](const Hit& h) {
+        return meeting_rank(scene.materials[scene.surfaces[h.primitive].material], from_front(h));
+    };
+    const ShearedRay sheared(ray);
+    const bool front = from_front(hit);
+    Hit first = hit;
+    int first_depth = 0; // along the ray, as against `hit`: before it, level with it, behind it
+    std::uint32_t first_rank = rank(hit);
+    for (std::uint32_t i = 0; i < surface.coincident_count; ++i) {
+        const Coincident& other = scene.coincident[surface.first_coincident + i];
+        const int depth = front ? -other.side : other.side;
+        Hit candidate{hit.t, other.primitive, 0, 0}; // a sphere is met everywhere
+        if (other.primitive < triangles &&
+            !intersect_triangle(sheared, scene.triangles[other.primitive],
+                                std::numeric_limits<float>::infinity(), candidate))
+            continue;
+        const std::uint32_t its_rank = rank(candidate);
+        const bool before = depth != first_depth          ? depth < first_depth
+                            : its_rank != first_rank ? its_rank < first_rank
+                                                     : candidate.primitive < first.primitive;
+        if (!before) continue;
+        first = candidate;
+        first_depth = depth;
+        first_rank = its_rank;
+    }
+    return first;
+}
+
+/// Whether a ray that comes from direction `towards` (unit length) sees the surface at `point`, and not one
+/// that coincides with it.
+template <Needs needs>
+HD bool sees_first(const SceneView<needs>& scene, const SurfacePoint& point, const Vec3& towards)
+{
+    if (scene.surfaces[point.primitive].coincident_count == 0) return true;
+    // From a diagonal away, so that t is not near 0.
+    const Ray ray{point.position + scene.diagonal * towards, std::numeric_limits<float>::infinity(),
+                  -towards};
+    return first_of_coincident(scene, ray, Hit{scene.diagonal, point.primitive, 0, 0}).primitive ==
+           point.primitive;
+}
+
+} // namespace gpu
