@@ -48,7 +48,7 @@ std::unique_ptr<gpu::Renderer> fast_renderer(const RenderCommand& options, const
     plan.roulette = !options.no_roulette;
     plan.batch_size = options.batch_size;
     plan.deterministic = options.deterministic;
-    if (!options.strategies.empty() || !options.strategies_picture.empty())
+    if (wants_layers(options))
         plan.layers = options.unweighted ? gpu::Layers::unweighted : gpu::Layers::weighted;
     if (options.device == "host")
         return gpu::host_renderer(scene, size.width, size.height, plan, options.threads);

@@ -46,6 +46,13 @@ struct RenderCommand {
 /// Adds the options to `command`, which sets `options` when it is parsed.
 void add_render_options(CLI::App& command, RenderCommand& options);
 
+/// Unless a batch size was `given`: takes the largest one up to the default that divides the samples, so
+/// that any number of samples is whole batches.
+void settle_batch_size(RenderCommand& options, bool given);
+
+/// Whether a picture of every strategy is asked for.
+bool wants_layers(const RenderCommand& options);
+
 /// Throws std::invalid_argument or golden::ImageError for options that cannot be meant, and for places
 /// that cannot be written to, before any work is done.
 void check(const RenderCommand& options);
