@@ -143,7 +143,7 @@ ExitStatus render(const RenderCommand& options)
     bool complete = false;
     {
         Progress progress(scene.name, static_cast<double>(batches_before),
-                          static_cast<double>(options.samples / options.batch_size), options.quiet);
+                          static_cast<double>(render_options(options).batches), options.quiet);
         ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
         monitor.batch = [&](const golden::Image& batch) {
             mean.add_batch(batch);
