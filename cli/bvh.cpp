@@ -7,6 +7,7 @@
 #include "cli/bvh_picture.h"
 #include "cli/bvh_stages.h"
 #include "cli/bvh_svg.h"
+#include "cli/output_files.h"
 #include "cli/scene_input.h"
 #include "golden/atomic_file.h"
 #include "golden/png.h"
@@ -114,6 +115,8 @@ ExitStatus bvh(const Options& options)
     const Size size = parse_size(options.size);
     expect_ending(options.picture, "--picture", ".png");
     expect_ending(options.figure, "--tree", ".svg");
+    expect_different_files({{"--picture", options.picture}, {"--tree", options.figure}},
+                           {{"the scene", options.scene}});
     for (const std::string& path : {options.picture, options.figure})
         if (!path.empty()) golden::check_place(path);
     const scenes::Scene scene = load_scene(options.scene, options.frame, options.quiet);

@@ -5,6 +5,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cuda/transport/renderer.h"
+#include "golden/file_ending.h"
 #include "golden/image_error.h"
 #include "golden/pfm.h"
 
@@ -23,9 +24,9 @@ namespace {
 golden::ExrPicture read_picture(const fs::path& path)
 {
     golden::ExrPicture picture;
-    if (path.extension() == ".exr")
+    if (golden::has_ending(path, ".exr"))
         picture = golden::read_exr(path);
-    else if (path.extension() == ".pfm")
+    else if (golden::has_ending(path, ".pfm"))
         picture.mean = golden::read_pfm(path);
     else
         throw golden::ImageError(path, "is no .exr, .pfm or .dae");
@@ -118,7 +119,7 @@ double samples_of(const std::string& file, const golden::Metadata& metadata,
 Judged judge(const golden::Golden& golden, const std::vector<std::string>& files,
              const CandidateOptions& options)
 {
-    const bool scene = fs::path(files.front()).extension() == ".dae";
+    const bool scene = golden::has_ending(files.front(), ".dae");
     if (!scene && (!options.integrator.empty() || options.seed || options.device != "ref"))
         throw std::invalid_argument(
             "--integrator, --device and --seed are for a scene that is rendered here");

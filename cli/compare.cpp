@@ -3,6 +3,7 @@
 #include "cli/compare.h"
 #include "cli/candidate.h"
 #include "cli/interrupt.h"
+#include "cli/output_files.h"
 #include "cli/scene_input.h"
 #include "golden/atomic_file.h"
 #include "golden/report.h"
@@ -83,6 +84,9 @@ struct CompareCommand {
 ExitStatus compare_command(const CompareCommand& options)
 {
     expect_ending(options.report, "--report", ".html");
+    std::vector<NamedFile> compared;
+    for (const std::string& file : options.pictures) compared.push_back({"the picture", file});
+    expect_different_files({{"--report", options.report}}, compared);
     if (!options.report.empty()) golden::check_place(options.report);
     const golden::Golden golden = golden::read_golden(options.pictures.back());
     catch_interrupts();

@@ -48,7 +48,7 @@ std::unique_ptr<gpu::Renderer> fast_renderer(const RenderCommand& options, const
     plan.roulette = !options.no_roulette;
     plan.batch_size = options.batch_size;
     plan.deterministic = options.deterministic;
-    if (!options.strategies.empty() || !options.strategies_picture.empty())
+    if (wants_layers(options))
         plan.layers = options.unweighted ? gpu::Layers::unweighted : gpu::Layers::weighted;
     if (options.device == "host")
         return gpu::host_renderer(scene, size.width, size.height, plan, options.threads);
@@ -71,6 +71,11 @@ std::optional<golden::Image> render_batch(gpu::Renderer& renderer, const RenderC
     std::optional<gpu::Batch> batch = renderer.render_batch(number, inner);
     if (!batch) return std::nullopt;
     if (layers != nullptr) layers->add(batch->layers, options.batch_size);
+    if (batch->dropped.count > 0) {
+        if (!monitor.dropped)
+            throw std::runtime_error(golden::describe(batch->dropped, batch->mean.width));
+        monitor.dropped(batch->dropped);
+    }
     return std::move(batch->mean);
 }
 

@@ -2,6 +2,7 @@
 
 #include "cli/golden.h"
 #include "cli/interrupt.h"
+#include "cli/output_files.h"
 #include "cli/progress.h"
 #include "golden/exr.h"
 #include "golden/image_error.h"
@@ -145,6 +146,10 @@ ExitStatus golden_command(GoldenCommand options)
     if (options.list) return list_goldens(options);
     if (options.verify > 0) return verify_goldens(options);
     check(options);
+    std::vector<NamedFile> goldens;
+    for (const std::string& scene : options.scenes)
+        goldens.push_back({"the golden of " + scene + ",", golden_file(options, scene)});
+    expect_different_files(goldens);
     fs::create_directories(options.folder);
     for (const std::string& scene : options.scenes)
         if (!make_golden(options, scene)) {

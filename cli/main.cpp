@@ -4,7 +4,9 @@
 #include "cli/candidate.h"
 #include "cli/command.h"
 #include "cli/compare.h"
+#include "cli/counts.h"
 #include "cli/golden.h"
+#include "cli/standard_output.h"
 #include "cuda/device.h"
 
 #include <csignal>
@@ -21,12 +23,48 @@ int complain(std::string_view message)
     return cli::bad_input;
 }
 
+/// The help that lists the options of the subcommand that was chosen.
+std::string where_help_is(const CLI::App& program)
+{
+    const auto chosen = program.get_subcommands();
+    const std::string command = chosen.empty() ? "" : chosen.front()->get_name() + " ";
+    return " (plumbline " + command + "--help lists what there is)";
+}
+
+/// Reads the command line and does the work. The exit status.
+int run(CLI::App& program, const cli::Work& work, int argc, char** argv)
+{
+    try {
+        program.parse(argc, argv);
+        return work();
+    } catch (const CLI::Success& help) {
+        return program.exit(help);
+    } catch (const CLI::RequiredError& error) {
+        // CLI11 says what is missing, not which word it did not know.
+        const std::string_view word = argc > 1 ? argv[1] : "-";
+        if (program.get_subcommands().size() == 1)
+            return complain(error.what() + where_help_is(program));
+        if (word.starts_with('-')) return complain(error.what());
+        return complain(std::string(word) + ": no such command (plumbline --help lists them)");
+    } catch (const CLI::ParseError& error) {
+        return complain(error.what() + where_help_is(program));
+    } catch (const cli::Interrupted&) {
+        complain("interrupted");
+        return cli::interrupted;
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory");
+    } catch (const std::exception& error) {
+        return complain(error.what());
+    }
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
     // A file that outgrows a limit is an error of the write, to be told as one.
     std::signal(SIGXFSZ, SIG_IGN);
+    cli::expect_closed_pipes();
     CLI::App program("Plumbline: a reference for tree builders and bidirectional path tracers",
                      "plumbline");
     program.set_version_flag(
@@ -39,26 +77,11 @@ int main(int argc, char** argv)
     cli::add_bvh_command(program, work);
     cli::add_golden_command(program, work);
     cli::add_compare_command(program, work);
+    cli::take_exponents(program);
 
-    try {
-        program.parse(argc, argv);
-        return work();
-    } catch (const CLI::Success& help) {
-        return program.exit(help);
-    } catch (const CLI::RequiredError& error) {
-        // CLI11 says what is missing, not which word it did not know.
-        const std::string_view word = argc > 1 ? argv[1] : "-";
-        if (word.starts_with('-') || program.get_subcommands().size() == 1)
-            return complain(error.what());
-        return complain(std::string(word) + ": no such command (plumbline --help lists them)");
-    } catch (const CLI::ParseError& error) {
-        return complain(std::string(error.what()) + " (plumbline --help lists what there is)");
-    } catch (const cli::Interrupted&) {
-        complain("interrupted");
-        return cli::interrupted;
-    } catch (const std::bad_alloc&) {
-        return complain("out of memory");
-    } catch (const std::exception& error) {
-        return complain(error.what());
-    }
+    const int status = run(program, work, argc, argv);
+    if (cli::flush_standard_output()) return status;
+    complain("standard output cannot be written");
+    return status == cli::fine ? cli::bad_input
+                               : status; // a verdict stands, and so does an interruption
 }

@@ -2,21 +2,21 @@
 
 #include "cli/command.h"
 #include "cli/fast_render.h"
+#include "cli/idle_options.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
+#include "cli/render_report.h"
 #include "cli/resources.h"
 #include "cuda/transport/renderer.h"
 #include "golden/exr.h"
+#include "golden/file_ending.h"
 #include "golden/png.h"
 #include "golden/strategy_sheet.h"
 #include "golden/write_image.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -33,31 +33,75 @@ double seconds_since(Clock::time_point start)
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void write_outputs(const RenderCommand& options, const golden::Film& film, golden::Metadata metadata,
-                   const golden::Layers& batches)
+/// What renders, the reference or the fast path, with its layers of strategies.
+class Rendering {
+public:
+    Rendering(const RenderCommand& options, const scenes::Scene& scene) : options_(options)
+    {
+        const Size size = parse_size(options.size);
+        if (options.device != "ref") {
+            fast_ = fast_renderer(options, scene);
+            return;
+        }
+        world_.emplace(scene, size.width, size.height, builder_of(options));
+        if (wants_layers(options))
+            layers_.emplace(size.width, size.height, options.max_edges, !options.unweighted);
+    }
+
+    /// Adds batches to `film` until it holds all, and returns whether it does: see ref::render.
+    bool run(golden::Film& film, const ref::Monitor& monitor)
+    {
+        return fast_ ? cli::render(*fast_, options_, film, monitor, fast_layers_)
+                     : ref::render(*world_, integrator_of(options_), render_options(options_), film,
+                                   monitor, layers_ ? &*layers_ : nullptr);
+    }
+
+    /// The layers as they stand; call it between batches.
+    [[nodiscard]] golden::Strategies strategies() const
+    {
+        return fast_ ? fast_layers_.means() : layers_->means();
+    }
+
+    /// The kernel of the fast path.
+    [[nodiscard]] std::optional<gpu::Needs> kernel() const
+    {
+        return fast_ ? std::optional(fast_->needs()) : std::nullopt;
+    }
+
+private:
+    const RenderCommand& options_;
+    std::optional<ref::World> world_;
+    std::optional<ref::StrategyLayers> layers_;
+    std::unique_ptr<gpu::Renderer> fast_;
+    LayerSums fast_layers_;
+};
+
+/// `metadata`, with what is known only of a film: how many samples it holds, and how many contributions
+/// it lacks because they are not finite.
+golden::Metadata describe_film(const RenderCommand& options, const golden::Film& film,
+                               const golden::Dropped& dropped, golden::Metadata metadata)
 {
+    if (dropped.count > 0) metadata["dropped"] = std::to_string(dropped.count);
     const std::uint64_t held = film.batches() * options.batch_size;
     metadata["samples"] = std::to_string(held);
     if (held < options.samples)
         metadata["interrupted"] = "before " + std::to_string(options.samples) + " samples";
+    return metadata;
+}
+
+void write_pictures(const RenderCommand& options, const golden::Film& film,
+                    const golden::Metadata& metadata, const golden::Layers& batches)
+{
     for (const std::string& path : options.outputs)
-        if (!batches.empty() && std::filesystem::path(path).extension() == ".exr")
+        if (!batches.empty() && golden::has_ending(path, ".exr"))
             golden::write_exr(path, film, metadata, batches);
         else
             golden::write_image(path, film, metadata, options.exposure);
 }
 
-/// In the order of batches, which is also that of names.
-std::string batch_name(std::size_t number)
-{
-    const std::string digits = std::to_string(number);
-    return "batch." + std::string(4 - std::min<std::size_t>(4, digits.size()), '0') + digits;
-}
-
 void write_strategies(const RenderCommand& options, const golden::Strategies& pictures,
                       const golden::Film& film, golden::Metadata metadata)
 {
-    metadata["samples"] = std::to_string(film.batches() * options.batch_size);
     metadata["strategies"] = options.unweighted ? "unweighted" : "weighted";
     if (!options.strategies.empty()) {
         golden::Layers named;
@@ -70,30 +114,11 @@ void write_strategies(const RenderCommand& options, const golden::Strategies& pi
                           options.exposure);
 }
 
-void report(const RenderCommand& options, const scenes::Scene& scene, const golden::Film& film,
-            double samples, double seconds, double cpu)
+/// In the order of batches, which is also that of names.
+std::string batch_name(std::size_t number)
 {
-    glm::dvec3 mean(0.0);
-    for (const auto& pixel : film.mean().pixels) mean += pixel;
-    mean /= static_cast<double>(film.mean().pixels.size());
-    const nlohmann::ordered_json json = {
-        {"scene", scene.name},
-        {"device", options.device},
-        {"integrator", options.integrator},
-        {"width", film.mean().width},
-        {"height", film.mean().height},
-        {"samples_per_pixel", film.batches() * options.batch_size},
-        {"complete", film.batches() * options.batch_size == options.samples},
-        {"samples", samples}, // of all pixels together, in this run
-        {"seconds", seconds},
-        {"cpu_seconds", cpu},
-        {"samples_per_second", seconds > 0.0 ? samples / seconds : 0.0},
-        {"samples_per_cpu_second", cpu > 0.0 ? samples / cpu : 0.0},
-        {"threads", options.threads},
-        {"peak_rss_bytes", peak_rss_bytes()},
-        {"mean_rgb", {mean.x, mean.y, mean.z}},
-        {"outputs", options.outputs}};
-    std::cout << json.dump() << std::endl;
+    const std::string digits = std::to_string(number);
+    return "batch." + std::string(4 - std::min<std::size_t>(4, digits.size()), '0') + digits;
 }
 
 ExitStatus render(const RenderCommand& options)
@@ -102,22 +127,17 @@ ExitStatus render(const RenderCommand& options)
     check(options);
     const scenes::Scene scene = load_scene(options.scene, options.frame, options.quiet);
     const golden::Metadata metadata = describe(options, scene);
-    golden::Film film = starting_film(options, metadata);
+    golden::Dropped dropped;
+    golden::Film film = starting_film(options, metadata, dropped);
     const std::uint64_t batches_before = film.batches();
-    const ref::RenderOptions plan = render_options(options);
-    const bool want_layers = !options.strategies.empty() || !options.strategies_picture.empty();
-    std::optional<ref::World> world;
-    std::optional<ref::StrategyLayers> layers;
-    std::unique_ptr<gpu::Renderer> fast;
-    LayerSums fast_layers;
-    if (options.device == "ref") {
-        world.emplace(scene, size.width, size.height, builder_of(options));
-        if (want_layers) layers.emplace(size.width, size.height, options.max_edges, !options.unweighted);
-    } else {
-        fast = fast_renderer(options, scene);
-    }
-
-    golden::Layers batches;
+    Rendering rendering(options, scene);
+    golden::Layers batches; // those that are to be kept
+    PictureMean mean;
+    const auto write_all = [&](const golden::Film& so_far) {
+        const golden::Metadata described = describe_film(options, so_far, dropped, metadata);
+        write_pictures(options, so_far, described, batches);
+        if (wants_layers(options)) write_strategies(options, rendering.strategies(), so_far, described);
+    };
 
     catch_interrupts();
     const Clock::time_point start = Clock::now();
@@ -126,34 +146,32 @@ ExitStatus render(const RenderCommand& options)
     bool complete = false;
     {
         Progress progress(scene.name, static_cast<double>(batches_before),
-                          static_cast<double>(plan.batches), options.quiet);
+                          static_cast<double>(render_options(options).batches), options.quiet);
         ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
-        if (options.keep_batches)
-            monitor.batch = [&](const golden::Image& batch) {
-                batches.emplace(batch_name(batches.size()), batch);
-            };
+        monitor.batch = [&](const golden::Image& batch) {
+            mean.add_batch(batch);
+            if (options.keep_batches) batches.emplace(batch_name(batches.size()), batch);
+        };
+        monitor.dropped = [&](const golden::Dropped& of_batch) { dropped += of_batch; };
         if (options.watch > 0.0)
             monitor.kept = [&](const golden::Film& so_far) {
                 if (seconds_since(written) < options.watch) return;
-                write_outputs(options, so_far, metadata, batches);
+                write_all(so_far);
                 written = Clock::now();
             };
-        complete = fast ? cli::render(*fast, options, film, monitor, fast_layers)
-                        : ref::render(*world, integrator_of(options), plan, film, monitor,
-                                      layers ? &*layers : nullptr);
+        complete = rendering.run(film, monitor);
     }
     const double seconds = seconds_since(start);
     const double cpu = cpu_seconds() - cpu_start;
 
     const bool anything = film.batches() > 0;
-    if (anything) write_outputs(options, film, metadata, batches);
-    if (anything && want_layers)
-        write_strategies(options, fast ? fast_layers.means() : layers->means(), film, metadata);
-    if (options.json)
-        report(options, scene, film,
-               static_cast<double>((film.batches() - batches_before) * options.batch_size) * size.width *
-                   size.height,
-               seconds, cpu);
+    if (anything) write_all(film);
+    const auto samples = static_cast<double>((film.batches() - batches_before) * options.batch_size) *
+                         size.width * size.height;
+    const RenderRun run{scene, film, mean, dropped, rendering.kernel(), samples, seconds, cpu};
+    for (const std::string& warning : warnings(run))
+        std::cerr << "plumbline: warning: " << options.scene << ": " << warning << '\n';
+    if (options.json) std::cout << render_json(options, run) << std::endl;
     if (complete) return fine;
     std::cerr << "plumbline: interrupted: "
               << (anything ? "kept " : "nothing written, no batch was finished: ")
@@ -171,7 +189,13 @@ void add_render_command(CLI::App& program, Work& work)
     add_render_options(*command, *options);
     command->footer(
         "Example: plumbline render scenes/cornell_glass.dae -o glass.exr -o glass.png -s 256");
-    command->callback([options, &work] { work = [options] { return render(*options); }; });
+    command->callback([options, command, &work] {
+        work = [options, command] {
+            settle_batch_size(*options, command->count("--batch") > 0);
+            expect_no_idle_options(*command, *options);
+            return render(*options);
+        };
+    });
 }
 
 } // namespace cli

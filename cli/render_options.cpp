@@ -1,6 +1,7 @@
 #include "cli/render_options.h"
 
 #include "cli/builders.h"
+#include "cli/output_files.h"
 #include "golden/write_image.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
@@ -39,6 +40,21 @@ std::string expect_seed(const std::string& text)
                : "expected a whole number from 0 to 2^64 - 1, not " + text;
 }
 
+/// Throws unless each file can be written and is no other file of this command.
+void check_files(const RenderCommand& options)
+{
+    expect_ending(options.strategies, "--strategies", ".exr");
+    expect_ending(options.strategies_picture, "--strategies-picture", ".png");
+    std::vector<NamedFile> files;
+    for (const std::string& path : options.outputs) files.push_back({"-o", path});
+    files.push_back({"--strategies", options.strategies});
+    files.push_back({"--strategies-picture", options.strategies_picture});
+    expect_different_files(files, {{"the scene", options.scene}});
+    for (const std::string& path : {options.strategies, options.strategies_picture})
+        if (!path.empty()) golden::check_writable(path);
+    for (const std::string& path : options.outputs) golden::check_writable(path);
+}
+
 } // namespace
 
 void add_render_options(CLI::App& command, RenderCommand& options)
@@ -52,10 +68,11 @@ void add_render_options(CLI::App& command, RenderCommand& options)
         ->capture_default_str();
     command
         .add_option("--batch", options.batch_size,
-                    "Samples per pixel in a batch, the unit of error and resuming")
-        ->check(CLI::Range(1u, 1u << 20))
-        ->capture_default_str();
-    command.add_option("-t,--threads", options.threads, "Threads; the picture does not depend on them")
+                    "Samples in a batch, unit of error and resuming [up to 4, dividing -s]")
+        ->check(CLI::Range(1u, 1u << 20));
+    command
+        .add_option("-t,--threads", options.threads,
+                    "Threads, not for cuda; the picture does not depend on them")
         ->check(CLI::Range(1u, 1024u))
         ->capture_default_str();
     command
@@ -101,7 +118,8 @@ void add_render_options(CLI::App& command, RenderCommand& options)
     command.add_flag("--unweighted", options.unweighted, "Strategies as if each were the only one");
     command.add_flag("--keep-batches", options.keep_batches,
                      "Keep each batch as a layer of the .exr outputs: compare judges by them");
-    command.add_flag("--json", options.json, "Print one JSON object with time, samples and mean");
+    command.add_flag("--json", options.json,
+                     "Print one JSON object: time, samples, mean and its error, kernel");
     command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
 }
 
@@ -112,6 +130,12 @@ void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size)
                                     std::to_string(batch_size) + " samples of a batch (--batch)");
 }
 
+void settle_batch_size(RenderCommand& options, bool given)
+{
+    if (given) return;
+    while (options.samples % options.batch_size != 0) --options.batch_size;
+}
+
 void check(const RenderCommand& options)
 {
     expect_whole_batches(options.samples, options.batch_size);
@@ -119,10 +143,7 @@ void check(const RenderCommand& options)
         throw std::invalid_argument("--no-roulette needs --max-edges: paths would never end");
     if (std::isnan(options.exposure) || std::isnan(options.watch))
         throw std::invalid_argument("--exposure and --watch expect numbers, and got a NaN");
-    if (options.device != "ref" && options.builder != RenderCommand{}.builder)
-        throw std::invalid_argument("--builder " + options.builder +
-                                    " is for --device ref: the fast path has a tree of its own");
-    const bool layers = !options.strategies.empty() || !options.strategies_picture.empty();
+    const bool layers = wants_layers(options);
     if (layers && options.max_edges > ref::most_edges_of_layers)
         throw std::invalid_argument("--strategies needs --max-edges of at most " +
                                     std::to_string(ref::most_edges_of_layers) +
@@ -130,19 +151,18 @@ void check(const RenderCommand& options)
     if (layers && options.resume)
         throw std::invalid_argument(
             "--strategies cannot be resumed: layers are kept without all their digits");
-    if (options.unweighted && !layers)
-        throw std::invalid_argument("--unweighted says what --strategies shows, and there is none");
     if (options.keep_batches && options.resume)
         throw std::invalid_argument(
             "--keep-batches cannot be resumed: layers are kept without all their digits");
     if (options.keep_batches && options.samples / options.batch_size > most_batches_kept)
         throw std::invalid_argument("--keep-batches keeps at most " + std::to_string(most_batches_kept) +
                                     " batches: choose a larger --batch");
-    expect_ending(options.strategies, "--strategies", ".exr");
-    expect_ending(options.strategies_picture, "--strategies-picture", ".png");
-    for (const std::string& path : {options.strategies, options.strategies_picture})
-        if (!path.empty()) golden::check_writable(path);
-    for (const std::string& path : options.outputs) golden::check_writable(path);
+    check_files(options);
+}
+
+bool wants_layers(const RenderCommand& options)
+{
+    return !options.strategies.empty() || !options.strategies_picture.empty();
 }
 
 ref::Integrator integrator_of(const RenderCommand& options)

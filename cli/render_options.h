@@ -3,6 +3,7 @@
 // What `plumbline render` can be asked for.
 
 #include "cli/scene_input.h"
+#include "golden/dropped.h"
 #include "golden/image.h"
 #include "ref/transport/render.h"
 #include "scenes/scene.h"
@@ -46,6 +47,13 @@ struct RenderCommand {
 /// Adds the options to `command`, which sets `options` when it is parsed.
 void add_render_options(CLI::App& command, RenderCommand& options);
 
+/// Unless a batch size was `given`: takes the largest one up to the default that divides the samples, so
+/// that any number of samples is whole batches.
+void settle_batch_size(RenderCommand& options, bool given);
+
+/// Whether a picture of every strategy is asked for.
+bool wants_layers(const RenderCommand& options);
+
 /// Throws std::invalid_argument or golden::ImageError for options that cannot be meant, and for places
 /// that cannot be written to, before any work is done.
 void check(const RenderCommand& options);
@@ -66,6 +74,8 @@ golden::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
 
 /// The film to start from: that of the file to resume, or an empty one. Throws std::invalid_argument or
 /// golden::ImageError if the file holds another picture than the one asked for.
-golden::Film starting_film(const RenderCommand& options, const golden::Metadata& description);
+/// `dropped` becomes the number of contributions that the film lacks.
+golden::Film starting_film(const RenderCommand& options, const golden::Metadata& description,
+                           golden::Dropped& dropped);
 
 } // namespace cli

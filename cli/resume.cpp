@@ -2,8 +2,10 @@
 
 #include "cli/render_options.h"
 #include "golden/exr.h"
+#include "golden/file_ending.h"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <stdexcept>
 
@@ -34,15 +36,14 @@ std::string value_of(const golden::Metadata& metadata, const std::string& key)
     return found == metadata.end() ? "" : found->second;
 }
 
-golden::Film starting_film(const RenderCommand& options, const golden::Metadata& description)
+golden::Film starting_film(const RenderCommand& options, const golden::Metadata& description,
+                           golden::Dropped& dropped)
 {
     const Size size = parse_size(options.size);
     const std::uint64_t batches = options.samples / options.batch_size;
     if (!options.resume) return {size.width, size.height};
-    const auto exr =
-        std::find_if(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
-            return std::filesystem::path(path).extension() == ".exr";
-        });
+    const auto exr = std::ranges::find_if(
+        options.outputs, [](const std::string& path) { return golden::has_ending(path, ".exr"); });
     if (exr == options.outputs.end())
         throw std::invalid_argument(
             "--resume needs an .exr among the outputs: only it holds all digits");
@@ -51,12 +52,15 @@ golden::Film starting_film(const RenderCommand& options, const golden::Metadata&
     golden::ExrPicture picture = golden::read_exr(*exr);
     if (!picture.film) throw std::invalid_argument(*exr + ": holds no state to resume from");
     golden::Metadata expected = description;
-    expected.try_emplace("device", ""); // the reference
+    expected.try_emplace("device", "ref"); // see describe
+    picture.metadata.try_emplace("device", "ref");
     for (const auto& [name, value] : expected) {
         const std::string found = value_of(picture.metadata, name);
-        if (found != value)
-            throw std::invalid_argument(*exr + ": cannot resume: its " + name + " is '" + found +
-                                        "', not '" + value + "'");
+        if (found == value) continue;
+        const bool batch = name == "batch_size"; // which may not have been asked for
+        throw std::invalid_argument(*exr + ": cannot resume: its " + name + " is '" + found +
+                                    "', not '" + value + "'" +
+                                    (batch ? ": --batch " + found + " goes on with it" : ""));
     }
     const golden::Image& mean = picture.film->mean();
     if (mean.width != size.width || mean.height != size.height)
@@ -66,6 +70,10 @@ golden::Film starting_film(const RenderCommand& options, const golden::Metadata&
         throw std::invalid_argument(
             *exr + ": holds " + std::to_string(picture.film->batches() * options.batch_size) +
             " samples per pixel already, more than -s " + std::to_string(options.samples));
+    const std::string lacking = value_of(picture.metadata, "dropped");
+    const char* const end = lacking.data() + lacking.size();
+    if (!lacking.empty() && std::from_chars(lacking.data(), end, dropped.count).ptr != end)
+        throw std::invalid_argument(*exr + ": its dropped is '" + lacking + "', not a number");
     return std::move(*picture.film);
 }
 

@@ -1,5 +1,6 @@
 #include "cli/scene_input.h"
 
+#include "golden/file_ending.h"
 #include "scenes/contacts.h"
 #include "scenes/frame.h"
 #include "scenes/placed.h"
@@ -32,7 +33,7 @@ Size parse_size(const std::string& text)
 
 void expect_ending(const std::string& path, const std::string& option, const std::string& ending)
 {
-    if (!path.empty() && std::filesystem::path(path).extension() != ending)
+    if (!path.empty() && !golden::has_ending(path, ending))
         throw std::invalid_argument(option + " " + path + ": its name must end in " + ending);
 }
 

@@ -17,7 +17,7 @@ struct Size {
 Size parse_size(const std::string& text);
 
 /// Throws std::invalid_argument unless the file name `path`, given to `option`, is empty or ends in
-/// `ending`.
+/// `ending` (lower case), in any case.
 void expect_ending(const std::string& path, const std::string& option, const std::string& ending);
 
 /// The scene in `file`, with a camera for certain, moved back to see the whole scene if `frame`. Tells

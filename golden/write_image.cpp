@@ -1,6 +1,7 @@
 #include "golden/write_image.h"
 #include "golden/atomic_file.h"
 #include "golden/exr.h"
+#include "golden/file_ending.h"
 #include "golden/image_error.h"
 #include "golden/pfm.h"
 #include "golden/png.h"
@@ -13,10 +14,9 @@ enum class Format { exr, pfm, png };
 
 Format format_of(const std::filesystem::path& path)
 {
-    const std::filesystem::path ending = path.extension();
-    if (ending == ".exr") return Format::exr;
-    if (ending == ".pfm") return Format::pfm;
-    if (ending == ".png") return Format::png;
+    if (has_ending(path, ".exr")) return Format::exr;
+    if (has_ending(path, ".pfm")) return Format::pfm;
+    if (has_ending(path, ".png")) return Format::png;
     throw ImageError(path, "the name of a picture must end in .exr, .pfm or .png");
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// One call for every kind of picture file: the ending of the name says which.
+// One call for every kind of picture file: the ending of the name, in any case, says which.
 
 #include "golden/image.h"
 

@@ -86,6 +86,8 @@ public:
         return collect();
     }
 
+    [[nodiscard]] Needs needs() const override { return needs_; }
+
 private:
     BatchRenderer(Memory& memory, E& executor, const LaunchLimits& limits, const scenes::Scene& scene,
                   const SceneArrays& arrays, int width, int height, const RenderOptions& options)

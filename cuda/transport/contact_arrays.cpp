@@ -61,7 +61,7 @@ void add_coincident(SceneArrays& arrays, const scenes::Scene& scene, const scene
             if (!std::ranges::binary_search(in_doubles.of(i), other))
                 side = i < triangles ? side_of(here.triangles[i], here.triangles[other])
                        : here.spheres[other - triangles].radius < here.spheres[i - triangles].radius ? -1
-                                                                                                    : 1;
+                                                                                                     : 1;
             arrays.coincident.push_back({other, side});
         }
         arrays.surfaces[i].coincident_count = static_cast<std::uint32_t>(in_floats.of(i).size());
@@ -95,8 +95,8 @@ std::vector<Plane> independent(std::vector<Plane> planes)
     return result;
 }
 
-/// The vectors m_i in the span of the normals n_j with dot(m_i, n_j) = 1 for i = j and 0 else: a step along
-/// m_i changes the distance from plane i alone.
+/// The vectors m_i in the span of the normals n_j with dot(m_i, n_j) = 1 for i = j and 0 else: a step
+/// along m_i changes the distance from plane i alone.
 std::vector<scenes::Vec3> dual_basis(const std::vector<Plane>& planes)
 {
     std::vector<scenes::Vec3> dual;
@@ -115,8 +115,8 @@ std::vector<scenes::Vec3> dual_basis(const std::vector<Plane>& planes)
     return dual;
 }
 
-/// What an end at `position`, in the coordinates of the arrays, touches; moves `rounded`, which is the same
-/// end as floats, off what it does not.
+/// What an end at `position`, in the coordinates of the arrays, touches; moves `rounded`, which is the
+/// same end as floats, off what it does not.
 EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& here, const scenes::Vec3& position,
                         Vec3& rounded)
 {
@@ -165,8 +165,8 @@ void add_contacts(SceneArrays& arrays, const scenes::Scene& scene)
             light.contacts = contacts_of(
                 arrays, here, placed(scene.point_lights[emitter.index].position), light.position);
         if (emitter.kind == EmitterKind::spot)
-            light.contacts = contacts_of(arrays, here,
-                                         placed(scene.spot_lights[emitter.index].position), light.position);
+            light.contacts = contacts_of(arrays, here, placed(scene.spot_lights[emitter.index].position),
+                                         light.position);
     }
     if (!scene.camera) return;
     arrays.eye_contacts = contacts_of(arrays, here, placed(scene.camera->eye), arrays.eye);

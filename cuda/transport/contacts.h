@@ -38,7 +38,8 @@ HD inline std::uint32_t meeting_rank(const Material& material, bool from_front)
 }
 
 /// Of the surfaces that coincide where `ray` has `hit`, the hit of the one that it sees: what it meets
-/// first where floats cannot tell and doubles can; else that of the lowest rank; else of the lowest number.
+/// first where floats cannot tell and doubles can; else that of the lowest rank; else of the lowest
+/// number.
 template <Needs needs>
 HD Hit first_of_coincident(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
 {
@@ -47,7 +48,8 @@ HD Hit first_of_coincident(const SceneView<needs>& scene, const Ray& ray, const 
     const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
     const auto from_front = [&](const Hit& h) {
         if (h.primitive >= triangles)
-            return glm::dot(ray.origin + h.t * ray.direction - scene.spheres[h.primitive - triangles].center,
+            return glm::dot(ray.origin + h.t * ray.direction -
+                                scene.spheres[h.primitive - triangles].center,
                             ray.direction) < 0.0f;
         const auto& v = scene.triangles[h.primitive].vertices;
         return glm::dot(unit_normal(v[1] - v[0], v[2] - v[0]), ray.direction) < 0.0f;
@@ -69,7 +71,7 @@ HD Hit first_of_coincident(const SceneView<needs>& scene, const Ray& ray, const 
                                 std::numeric_limits<float>::infinity(), candidate))
             continue;
         const std::uint32_t its_rank = rank(candidate);
-        const bool before = depth != first_depth          ? depth < first_depth
+        const bool before = depth != first_depth     ? depth < first_depth
                             : its_rank != first_rank ? its_rank < first_rank
                                                      : candidate.primitive < first.primitive;
         if (!before) continue;
@@ -80,8 +82,8 @@ HD Hit first_of_coincident(const SceneView<needs>& scene, const Ray& ray, const 
     return first;
 }
 
-/// Whether a ray that comes from direction `towards` (unit length) sees the surface at `point`, and not one
-/// that coincides with it.
+/// Whether a ray that comes from direction `towards` (unit length) sees the surface at `point`, and not
+/// one that coincides with it.
 template <Needs needs>
 HD bool sees_first(const SceneView<needs>& scene, const SurfacePoint& point, const Vec3& towards)
 {

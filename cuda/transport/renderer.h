@@ -61,6 +61,9 @@ public:
 
     /// Renders the batch of that number, whatever was rendered before. None if `monitor` said stop.
     virtual std::optional<Batch> render_batch(std::uint64_t number, const Monitor& monitor) = 0;
+
+    /// What the kernels that render can do: what the scene needs, and RenderOptions::at_least.
+    [[nodiscard]] virtual Needs needs() const = 0;
 };
 
 /// Renders on `threads` threads of the host. The scene must have a camera; it is copied. Throws

@@ -57,7 +57,11 @@ public:
         }
         if (error_) std::rethrow_exception(error_);
         if (stopped_) return false;
-        if (dropped_.count > 0 && monitor.dropped) monitor.dropped(dropped_);
+        if (dropped_.count > 0) {
+            if (!monitor.dropped)
+                throw std::runtime_error(golden::describe(dropped_, world_.camera.width()));
+            monitor.dropped(dropped_);
+        }
         for (std::size_t i = 0; i < sum_.pixels.size(); ++i)
             sum_.pixels[i] =
                 (sum_.pixels[i] + splat_sum_.pixels[i]) / static_cast<double>(options_.batch_size);

@@ -28,7 +28,8 @@ struct Monitor {
     std::function<void(const golden::Film&)> kept =
         {}; // after each batch, with the film as it stands then
     std::function<void(const golden::Image&)> batch = {}; // each batch's mean, before `kept`
-    /// After a batch of which contributions that are not finite were left out.
+    /// After a batch of which contributions that are not finite were left out. Empty: then that is an
+    /// error.
     std::function<void(const golden::Dropped&)> dropped = {};
 };
 
@@ -37,7 +38,8 @@ struct Monitor {
 /// The film depends on scene, options and seed alone: not on the number of threads, nor on where the
 /// render was interrupted. A contribution that is not finite is left out of film and layers, and
 /// reported to `monitor`. `layers`, if there are any, receive the same batches strategy by strategy.
-/// Throws std::invalid_argument if film, layers and camera differ in size.
+/// Throws std::invalid_argument if film, layers and camera differ in size, std::runtime_error for
+/// contributions that are not finite if `monitor` does not take the report.
 bool render(const World& world, Integrator integrator, const RenderOptions& options, golden::Film& film,
             const Monitor& monitor = {}, StrategyLayers* layers = nullptr);
 

@@ -104,6 +104,17 @@ TEST_F(CompareCommand, ADimmerPictureFails)
     EXPECT_EQ(outcome.out.rfind("FAIL", 0), 0u) << outcome.out;
 }
 
+TEST_F(CompareCommand, AnyCaseOfAnEndingWillDo)
+{
+    candidate = (folder / "CANDIDATE.EXR").string();
+    render(candidate, {"--integrator", "bdpt"});
+    const std::string page = (folder / "PAGE.HTML").string();
+    EXPECT_EQ(compare({candidate}, {"--report", page}).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(page));
+    std::filesystem::rename(altered(1.0), folder / "ALTERED.PFM");
+    EXPECT_EQ(compare({(folder / "ALTERED.PFM").string()}, {"-s", "512"}).status, 0);
+}
+
 TEST_F(CompareCommand, TooFewSamplesAreInconclusive)
 {
     TemporaryFolder goldens;

@@ -110,12 +110,12 @@ TEST_F(FastRender, DoesNotGoOnFromAnotherDevicesPicture)
     const std::string before = read_bytes(out);
     const Outcome onwards = run(render(out, "8", "ref") + Arguments{"--resume"});
     EXPECT_EQ(onwards.status, 2);
-    EXPECT_NE(onwards.err.find("its device is 'host'"), std::string::npos) << onwards.err;
+    EXPECT_NE(onwards.err.find("its device is 'host', not 'ref'"), std::string::npos) << onwards.err;
     EXPECT_TRUE(read_bytes(out) == before);
     ASSERT_EQ(run(render(other, "4", "ref")).status, 0);
     const Outcome back = run(render(other, "8") + Arguments{"--resume"});
     EXPECT_EQ(back.status, 2);
-    EXPECT_NE(back.err.find("its device is ''"), std::string::npos) << back.err;
+    EXPECT_NE(back.err.find("its device is 'ref', not 'host'"), std::string::npos) << back.err;
 }
 
 TEST_F(FastRender, SaysWhyThereIsNoGpu)

@@ -115,6 +115,34 @@ TEST_P(Interrupt, TwiceEndsAtOnce)
     EXPECT_EQ(folder.entries(), 0u);
 }
 
+// With --watch all files grow, also those of the strategies.
+TEST_F(Interrupt, LayersAndSheetAreRewrittenWhileRendering)
+{
+    const std::string layers = (folder / "layers.exr").string();
+    const std::string sheet = (folder / "sheet.png").string();
+    for (const char* device : {"ref", "host"}) {
+        Process process(render(out, "2147483648") + Arguments{"--watch", "0.001", "--integrator", "bdpt",
+                                                              "--max-edges", "3", "--device", device,
+                                                              "--strategies", layers,
+                                                              "--strategies-picture", sheet});
+        ASSERT_TRUE(eventually([&] { return std::filesystem::exists(sheet); })) << device;
+        const auto samples = [&] {
+            return std::stoull(golden::read_exr(layers).metadata.at("samples"));
+        };
+        const std::uint64_t first = samples();
+        const std::string first_sheet = read_bytes(sheet);
+        EXPECT_TRUE(eventually([&] { return samples() > first; })) << device;
+        EXPECT_TRUE(eventually([&] { return read_bytes(sheet) != first_sheet; })) << device;
+        const golden::ExrPicture growing = golden::read_exr(layers);
+        EXPECT_TRUE(growing.layers.contains("s2t1"));
+        EXPECT_EQ(growing.metadata.at("interrupted"), "before 2147483648 samples");
+        process.send(SIGINT);
+        EXPECT_EQ(process.finish().status, 130);
+        EXPECT_EQ(samples(), samples_held());
+        for (const std::string& file : {out, layers, sheet}) std::filesystem::remove(file);
+    }
+}
+
 TEST_F(Interrupt, JsonSaysThatThePictureIsNotComplete)
 {
     const Outcome outcome = interrupted(SIGINT, {"--json", "-q"});

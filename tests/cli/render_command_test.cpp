@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
@@ -128,6 +130,69 @@ TEST(Render, TheExrSaysHowItWasMade)
     EXPECT_EQ(exr.film->batches(), 2u);
 }
 
+TEST(Render, AnyCaseOfAnEndingWillDo)
+{
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        run(render("cornell_glass", folder / "A.EXR",
+                   {"-o", (folder / "B.Pfm").string(), "-o", (folder / "C.PNG").string(), "--strategies",
+                    (folder / "S.EXR").string(), "--strategies-picture", (folder / "S.PNG").string(),
+                    "--max-edges", "3", "--keep-batches", "--exposure", "1"}));
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(folder.entries(), 5u);
+    const golden::ExrPicture exr = golden::read_exr(folder / "A.EXR");
+    EXPECT_EQ(exr.mean, golden::read_pfm(folder / "B.Pfm"));
+    EXPECT_EQ(exr.layers.size(), 2u) << "the batches";
+    EXPECT_EQ(read_bytes(folder / "C.PNG").substr(1, 3), "PNG");
+    ASSERT_EQ(run(render("cornell_glass", folder / "B.EXR")).status, 0);
+    const Outcome resumed =
+        run(render("cornell_glass", folder / "B.EXR", {"--resume"}, {"--size", "24x16", "-s", "12"}));
+    EXPECT_EQ(resumed.status, 0) << resumed.err;
+    EXPECT_EQ(golden::read_exr(folder / "B.EXR").metadata.at("samples"), "12");
+}
+
+// Without --batch: the largest of 4, 3, 2 and 1 that divides the samples.
+TEST(Render, AnyNumberOfSamplesIsWholeBatches)
+{
+    const TemporaryFolder folder;
+    for (const auto& [samples, batch] : {std::pair("1", "1"),
+                                         {"2", "2"},
+                                         {"3", "3"},
+                                         {"5", "1"},
+                                         {"6", "3"},
+                                         {"8", "4"},
+                                         {"9", "3"},
+                                         {"10", "2"}}) {
+        const Outcome outcome = run(
+            render("point_over_plane", folder / "a.exr", {"--json"}, {"--size", "6x4", "-s", samples}));
+        ASSERT_EQ(outcome.status, 0) << samples << outcome.err;
+        EXPECT_EQ(golden::read_exr(folder / "a.exr").metadata.at("batch_size"), batch) << samples;
+        const auto json = nlohmann::json::parse(outcome.out);
+        EXPECT_EQ(std::to_string(json.at("batch_size").get<int>()), batch) << samples;
+        EXPECT_EQ(std::to_string(json.at("samples_per_pixel").get<int>()), samples);
+    }
+    // A batch that is asked for is that, also where it is the default.
+    EXPECT_EQ(
+        run(render("point_over_plane", folder / "b.exr", {"--batch", "4"}, {"--size", "6x4", "-s", "6"}))
+            .status,
+        2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.exr"));
+}
+
+TEST(Render, CountsMayHaveAnExponent)
+{
+    const TemporaryFolder folder;
+    const auto samples = [&](const char* written) {
+        const Outcome outcome = run(render("point_over_plane", folder / "a.exr", {"-t", "1e0"},
+                                           {"--size", "1x1", "--batch", "1e1", "-s", written}));
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return golden::read_exr(folder / "a.exr").metadata.at("samples");
+    };
+    EXPECT_EQ(samples("1e3"), "1000");
+    EXPECT_EQ(samples("1.5E+2"), "150");
+    EXPECT_EQ(samples("2.50e2"), "250");
+}
+
 TEST(Render, JsonIsOneObjectWithWhatAScriptNeeds)
 {
     const TemporaryFolder folder;
@@ -157,6 +222,98 @@ TEST(Render, JsonIsOneObjectWithWhatAScriptNeeds)
     for (int i = 0; i < 3; ++i) // summed in the same order: equal but for the digits printed
         EXPECT_NEAR(json.at("mean_rgb")[static_cast<std::size_t>(i)].get<double>(), sum[i] / (24 * 16),
                     1e-12);
+}
+
+/// Per channel the standard deviation of the whole picture's mean over the batches that are kept in
+/// `file`.
+std::array<double, 3> scatter_of_batches(const std::filesystem::path& file)
+{
+    std::vector<glm::dvec3> means;
+    for (const auto& [name, batch] : golden::read_exr(file).layers) {
+        means.emplace_back(0.0);
+        for (const auto& pixel : batch.pixels) means.back() += pixel / double(batch.pixels.size());
+    }
+    std::array<double, 3> deviation{};
+    for (int c = 0; c < 3; ++c) {
+        double mean = 0.0;
+        double squares = 0.0;
+        for (const auto& m : means) mean += m[c] / double(means.size());
+        for (const auto& m : means) squares += (m[c] - mean) * (m[c] - mean);
+        deviation[std::size_t(c)] = std::sqrt(squares / double(means.size() - 1));
+    }
+    return deviation;
+}
+
+// Pixels vary together, since light walks splat on all of them: what counts is how whole batches
+// scatter.
+TEST(Render, JsonSaysHowExactTheMeanIs)
+{
+    const TemporaryFolder folder;
+    const auto file = folder / "a.exr";
+    for (const char* device : {"ref", "host"}) {
+        const Outcome outcome = run(render(
+            "cornell_glass", file,
+            {"--json", "--keep-batches", "--integrator", "bdpt", "--max-edges", "5", "--device", device},
+            {"--size", "24x16", "-s", "40"}));
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        const auto error = nlohmann::json::parse(outcome.out).at("mean_rgb_standard_error");
+        ASSERT_EQ(error.size(), 3u);
+        const auto deviation = scatter_of_batches(file); // of floats: sums of 384 of them
+        for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(error[c].get<double>() / (deviation[c] / std::sqrt(10.0)), 1.0, 1e-4) << c;
+    }
+}
+
+TEST(Render, JsonOfAResumedRenderTakesItsErrorFromTheBatchesOfThisRun)
+{
+    const TemporaryFolder folder;
+    const auto error_after = [&](const char* samples, const Arguments& more = {}) {
+        const Outcome outcome = run(render("cornell_glass", folder / "a.exr", Arguments{"--json"} + more,
+                                           {"--size", "24x16", "--batch", "4", "-s", samples}));
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out).at("mean_rgb_standard_error");
+    };
+    EXPECT_TRUE(error_after("4").is_null()) << "one batch has no scatter";
+    ASSERT_EQ(error_after("8").size(), 3u);
+    EXPECT_TRUE(error_after("8", {"--resume"}).is_null()) << "nothing was rendered";
+    EXPECT_TRUE(error_after("12", {"--resume"}).is_null()) << "one batch was rendered";
+    const auto resumed = error_after("40", {"--resume"}); // the last 7 batches of 10
+    ASSERT_EQ(run(render("cornell_glass", folder / "all.exr", {"--keep-batches"},
+                         {"--size", "24x16", "--batch", "4", "-s", "40"}))
+                  .status,
+              0);
+    golden::ExrPicture last = golden::read_exr(folder / "all.exr");
+    for (const char* first : {"batch.0000", "batch.0001", "batch.0002"})
+        ASSERT_EQ(last.layers.erase(first), 1u);
+    golden::write_exr(folder / "last.exr", *last.film, {}, last.layers);
+    const auto deviation = scatter_of_batches(folder / "last.exr");
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(resumed[c].get<double>() / (deviation[c] / std::sqrt(10.0)), 1.0, 1e-4) << c;
+}
+
+TEST(Render, JsonSaysWhatTheSceneRequiresAndWhichKernelWasUsed)
+{
+    const TemporaryFolder folder;
+    const auto json_of = [&](const char* scene, const char* device) {
+        const Outcome outcome = run(render(scene, folder / "a.exr", {"--json", "--device", device}));
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out);
+    };
+    using Json = nlohmann::json;
+    const Json glass = json_of("cornell_glass", "ref");
+    EXPECT_EQ(glass.at("requirements"),
+              Json({{"shapes", {"triangle", "sphere"}},
+                    {"bsdfs", {"lambertian", "mirror", "glass"}},
+                    {"emitters", {"mesh"}},
+                    {"strategies", {"emission_hit", "next_event", "light_image", "inner_connection"}},
+                    {"fov_axes", {"horizontal"}}}));
+    EXPECT_TRUE(glass.at("kernel").is_null()) << "the reference has none";
+    EXPECT_EQ(json_of("cornell_glass", "host").at("kernel"),
+              Json({{"spheres", true}, {"specular", true}, {"other_lights", false}}));
+    EXPECT_EQ(json_of("mesh_knot", "host").at("kernel"),
+              Json({{"spheres", false}, {"specular", false}, {"other_lights", false}}));
+    EXPECT_EQ(json_of("point_over_plane", "host").at("kernel"),
+              Json({{"spheres", false}, {"specular", false}, {"other_lights", true}}));
 }
 
 TEST(Render, ThreadsChangeNoByteOfAFile)

@@ -50,6 +50,7 @@ struct Outcome {
 struct Surroundings {
     bool terminal = false; // stdout and stderr are a terminal: both are found in Outcome::out
     std::optional<rlim_t> largest_file{}; // bytes: as if the disk were full beyond
+    enum class Output { file, closed_pipe, full_disk, closed } output = Output::file; // stdout
 };
 
 /// Waits for `condition` for as long as a slow machine may take. Whether it came true.
@@ -83,8 +84,9 @@ public:
         }
         if (!surroundings.terminal) {
             dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
-            dup2(open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
+            dup2(open_output(surroundings.output, out), STDOUT_FILENO);
             dup2(open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+            if (surroundings.output == Surroundings::Output::closed) close(STDOUT_FILENO);
         }
         if (surroundings.largest_file) {
             const rlimit limit{*surroundings.largest_file, *surroundings.largest_file};
@@ -145,10 +147,23 @@ public:
         pid_ = 0;
         const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
         if (terminal_ >= 0) return {code, printed(), ""};
-        return {code, read_bytes(folder_ / "out"), read_bytes(folder_ / "err")};
+        const bool kept = std::filesystem::exists(folder_ / "out");
+        return {code, kept ? read_bytes(folder_ / "out") : "", read_bytes(folder_ / "err")};
     }
 
 private:
+    /// In the new process: what its stdout is to be.
+    static int open_output(Surroundings::Output output, const std::string& file)
+    {
+        if (output == Surroundings::Output::full_disk) return open("/dev/full", O_WRONLY);
+        if (output != Surroundings::Output::closed_pipe)
+            return open(file.c_str(), O_WRONLY | O_CREAT, 0600);
+        std::array<int, 2> ends{}; // read, write
+        if (pipe(ends.data()) != 0) _exit(127);
+        close(ends[0]);
+        return ends[1];
+    }
+
     TemporaryFolder folder_;
     pid_t pid_ = 0;
     int terminal_ = -1;

@@ -25,7 +25,8 @@ struct SmallFilm {
     gpu::FilmTarget target{own, {splats, {}}, {}, dropped, false, pixels};
 };
 
-/// Kernel over samples: each adds a finite contribution, and one that is not, to its pixel and to another.
+/// Kernel over samples: each adds a finite contribution, and one that is not, to its pixel and to
+/// another.
 struct AddToFilm {
     gpu::FilmTarget target;
     void operator()(std::uint32_t i) const

@@ -175,6 +175,13 @@ TEST(Render, LeavesOutWhatIsNotFiniteAndSaysHowMuch)
     }
 }
 
+TEST(Render, NeverLeavesOutWhatIsNotFiniteWithoutAWord)
+{
+    const ref::World world(scene(), width, height);
+    EXPECT_THROW(ref::render_batch(world, sometimes_not_finite, {{.seed = 1}, 1, 2, 2}, 0),
+                 std::runtime_error);
+}
+
 TEST(Render, RefusesAWorldOfWhichProductsOfLengthsOverflow)
 {
     for (const double factor : {1e100, 1e-100})

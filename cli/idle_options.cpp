@@ -1,0 +1,56 @@
+#include "cli/idle_options.h"
+
+#include "golden/file_ending.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+namespace {
+
+struct Rule {
+    const char* option;
+    bool idle;          // whether it has no effect, if it was given
+    std::string beside; // what option makes it so, and why
+};
+
+std::vector<Rule> rules_for(const RenderCommand& options)
+{
+    const auto writes = [&](const char* ending) {
+        return std::ranges::any_of(
+            options.outputs, [&](const std::string& path) { return golden::has_ending(path, ending); });
+    };
+    const bool sheet = !options.strategies_picture.empty();
+    const bool layers = sheet || !options.strategies.empty();
+    const std::string with_integrator = "with --integrator " + options.integrator + ": ";
+    const std::string with_device = "with --device " + options.device + ": ";
+    return {
+        {"--heuristic", options.integrator != "bdpt", with_integrator + "it is for bdpt"},
+        {"--builder", options.device != "ref", with_device + "the fast path has a tree of its own"},
+        {"--threads", options.device == "cuda", with_device + "it is for the host's processor"},
+        {"--exposure", !writes(".png") && !sheet,
+         "without a .png: neither --output nor --strategies-picture names one"},
+        {"--unweighted", !layers,
+         "without --strategies or --strategies-picture: it says what they show"},
+        {"--unweighted", options.integrator == "light", with_integrator + "all its weights are 1"},
+        {"--keep-batches", !writes(".exr"), "without an .exr: --output names none"},
+    };
+}
+
+} // namespace
+
+void expect_no_idle_options(const CLI::App& command, const RenderCommand& options)
+{
+    for (const Rule& rule : rules_for(options)) {
+        const CLI::Option& option = *command.get_option(rule.option);
+        if (!rule.idle || option.count() == 0) continue;
+        const bool flag = option.get_expected_max() == 0;
+        throw std::invalid_argument(rule.option + (flag ? "" : " " + option.results().front()) +
+                                    " has no effect " + rule.beside);
+    }
+}
+
+} // namespace cli

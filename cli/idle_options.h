@@ -1,0 +1,16 @@
+#pragma once
+
+// Options of `plumbline render` that were given and would change nothing.
+
+#include "cli/render_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace cli {
+
+/// Throws std::invalid_argument for an option that was given on the command line of `command` and has no
+/// effect beside the others in `options`: the message names both. An option that asks for what holds
+/// anyway (--deterministic with --device ref) is fulfilled, and no error.
+void expect_no_idle_options(const CLI::App& command, const RenderCommand& options);
+
+} // namespace cli

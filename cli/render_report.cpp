@@ -1,0 +1,124 @@
+#include "cli/render_report.h"
+
+#include "cli/resources.h"
+#include "scenes/emission.h"
+#include "scenes/requirements.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json channels(const golden::Rgb& value)
+{
+    return {value.x, value.y, value.z};
+}
+
+template <class Enumeration>
+Json names(const std::set<Enumeration>& required)
+{
+    Json list = Json::array();
+    for (const Enumeration one : required) list.push_back(scenes::name_of(one));
+    return list;
+}
+
+Json requirements_json(const scenes::Scene& scene)
+{
+    const scenes::Requirements required = scenes::requirements(scene);
+    return {{"shapes", names(required.shapes)},
+            {"bsdfs", names(required.bsdfs)},
+            {"emitters", names(required.emitters)},
+            {"strategies", names(required.strategies)},
+            {"fov_axes", names(required.fov_axes)}};
+}
+
+/// What the kernel can do besides triangles and Lambertian surfaces.
+Json kernel_json(const std::optional<gpu::Needs>& kernel)
+{
+    if (!kernel) return nullptr;
+    return {{"spheres", kernel->spheres},
+            {"specular", kernel->specular},
+            {"other_lights", kernel->other_lights}};
+}
+
+} // namespace
+
+golden::Rgb mean_of(const golden::Image& image)
+{
+    golden::Rgb sum(0.0);
+    for (const golden::Rgb& pixel : image.pixels) sum += pixel;
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+void PictureMean::add_batch(const golden::Image& batch)
+{
+    golden::Image pixel(1, 1);
+    pixel.pixels[0] = mean_of(batch);
+    film_.add_batch(pixel);
+}
+
+std::optional<golden::Rgb> PictureMean::standard_error(std::uint64_t batches) const
+{
+    if (film_.batches() < 2) return std::nullopt;
+    const golden::Rgb variance = film_.squares().pixels[0] / static_cast<double>(film_.batches() - 1);
+    return glm::sqrt(variance / static_cast<double>(batches));
+}
+
+bool is_unexpectedly_black(const scenes::Scene& scene, const golden::Image& picture)
+{
+    const auto dark = [](const golden::Rgb& pixel) {
+        return glm::vec3(pixel) == glm::vec3(0.0f); // as files hold it
+    };
+    return scenes::has_emitter(scene) && std::ranges::all_of(picture.pixels, dark);
+}
+
+std::vector<std::string> warnings(const RenderRun& run)
+{
+    std::vector<std::string> lines;
+    if (run.dropped.count > 0) lines.push_back(describe(run.dropped, run.film.mean().width));
+    if (run.film.batches() > 0 && is_unexpectedly_black(run.scene, run.film.mean()))
+        lines.emplace_back(
+            "the picture is exactly black although the scene has emitters: their light is "
+            "too weak for 32-bit floats, does not reach the camera within --max-edges, or "
+            "is found by no strategy of this integrator");
+    return lines;
+}
+
+std::string render_json(const RenderCommand& options, const RenderRun& run)
+{
+    const std::uint64_t held = run.film.batches() * options.batch_size;
+    const auto error = run.mean.standard_error(run.film.batches());
+    const auto rate = [&](double time) { return time > 0.0 ? run.samples / time : 0.0; };
+    const Json json = {{"scene", run.scene.name},
+                       {"device", options.device},
+                       {"integrator", options.integrator},
+                       {"width", run.film.mean().width},
+                       {"height", run.film.mean().height},
+                       {"samples_per_pixel", held},
+                       {"batch_size", options.batch_size},
+                       {"complete", held == options.samples},
+                       {"samples", run.samples},
+                       {"seconds", run.seconds},
+                       {"cpu_seconds", run.cpu_seconds},
+                       {"samples_per_second", rate(run.seconds)},
+                       {"samples_per_cpu_second", rate(run.cpu_seconds)},
+                       {"threads", options.threads},
+                       {"peak_rss_bytes", peak_rss_bytes()},
+                       {"mean_rgb", channels(mean_of(run.film.mean()))},
+                       {"mean_rgb_standard_error", error ? channels(*error) : Json(nullptr)},
+                       {"dropped", run.dropped.count},
+                       {"black_despite_emitters", is_unexpectedly_black(run.scene, run.film.mean())},
+                       {"requirements", requirements_json(run.scene)},
+                       {"kernel", kernel_json(run.kernel)},
+                       {"outputs", options.outputs}};
+    return json.dump();
+}
+
+} // namespace cli
