@@ -154,7 +154,9 @@ std::vector<NearSurface> surfaces_near(const Scene& scene, const Vec3& point, do
         const double distance = glm::length(to);
         const double on_it = on * std::max(size, largest);
         if (!(distance <= std::max(near, on_it))) return;
-        const int side = distance <= on_it ? 0 : glm::dot(to, normal) < 0 ? 1 : -1;
+        // Beside a triangle, in its plane, the sign of the height would be that of its rounding.
+        const double height = -glm::dot(to, normal);
+        const int side = std::abs(height) <= on_it ? 0 : height > 0 ? 1 : -1;
         result.push_back({primitive, side, normal});
     };
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)

@@ -35,9 +35,9 @@ struct NearSurface {
 inline constexpr double double_rounding =
     32 * 0x1p-53; // a dozen products and sums of a node's transforms
 
-/// The surfaces whose distance from `point` is at most `near`, in order of their numbers. The point is
-/// on those from which it is no farther than `on` times the largest coordinate of both. Surfaces without
-/// area do not count.
+/// The surfaces whose distance from `point` is at most `near`, and those that it is on: no farther than
+/// `on` times the largest coordinate of both. In order of their numbers; surfaces without area do not
+/// count.
 std::vector<NearSurface> surfaces_near(const Scene& scene, const Vec3& point, double near = 0,
                                        double on = double_rounding);
 

@@ -115,25 +115,25 @@ std::vector<scenes::Vec3> dual_basis(const std::vector<Plane>& planes)
     return dual;
 }
 
-/// What an end at `position`, in the coordinates of the arrays, touches; moves `rounded`, which is the
-/// same end as floats, off what it does not.
-EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& here, const scenes::Vec3& position,
+/// What an end at `position` of the scene touches, judged where the file has it: there its coordinates
+/// were rounded. Sets `rounded` to the same end in the arrays, off the surfaces that it does not touch.
+EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& scene, const scenes::Vec3& position,
                         Vec3& rounded)
 {
-    const double near = plane_clearance * arrays.diagonal;
+    const double near = plane_clearance * arrays.diagonal / arrays.place.scale;
     EndContacts contacts{};
     contacts.first_plane = static_cast<std::uint32_t>(arrays.contact_planes.size());
     contacts.first_triangle = static_cast<std::uint32_t>(arrays.contact_triangles.size());
     std::vector<Plane> planes;
-    for (const scenes::NearSurface& surface : scenes::surfaces_near(here, position, near)) {
-        const bool is_triangle = surface.primitive < here.triangles.size();
+    for (const scenes::NearSurface& surface : scenes::surfaces_near(scene, position, near)) {
+        const bool is_triangle = surface.primitive < scene.triangles.size();
         planes.push_back({surface.normal, surface.side,
                           (is_triangle ? plane_clearance : sphere_clearance) * arrays.diagonal});
         if (is_triangle && surface.side == 0) arrays.contact_triangles.push_back(surface.primitive);
     }
     planes = independent(std::move(planes));
     const std::vector<scenes::Vec3> dual = dual_basis(planes);
-    scenes::Vec3 moved_to = position;
+    scenes::Vec3 moved_to = (position - arrays.place.origin) * arrays.place.scale;
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const scenes::Vec3 push = planes[i].clearance * dual[i];
         if (planes[i].side == 0)
@@ -153,23 +153,19 @@ EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& here, const sc
 
 void add_contacts(SceneArrays& arrays, const scenes::Scene& scene)
 {
-    const scenes::Scene here = moved(scene, arrays.place);
-    add_coincident(arrays, scene, here);
-    const auto placed = [&](const scenes::Vec3& x) {
-        return (x - arrays.place.origin) * arrays.place.scale;
-    };
+    add_coincident(arrays, scene, moved(scene, arrays.place));
     for (std::size_t i = 0; i < arrays.emitters.size(); ++i) {
         const Emitter& emitter = arrays.emitters[i];
         Light& light = arrays.lights[i];
         if (emitter.kind == EmitterKind::point)
-            light.contacts = contacts_of(
-                arrays, here, placed(scene.point_lights[emitter.index].position), light.position);
+            light.contacts =
+                contacts_of(arrays, scene, scene.point_lights[emitter.index].position, light.position);
         if (emitter.kind == EmitterKind::spot)
-            light.contacts = contacts_of(arrays, here, placed(scene.spot_lights[emitter.index].position),
-                                         light.position);
+            light.contacts =
+                contacts_of(arrays, scene, scene.spot_lights[emitter.index].position, light.position);
     }
     if (!scene.camera) return;
-    arrays.eye_contacts = contacts_of(arrays, here, placed(scene.camera->eye), arrays.eye);
+    arrays.eye_contacts = contacts_of(arrays, scene, scene.camera->eye, arrays.eye);
 }
 
 } // namespace gpu

@@ -31,8 +31,8 @@ std::filesystem::path wrapped(const TemporaryFolder& folder, const std::string& 
 Outcome render(const std::filesystem::path& scene, const Arguments& more)
 {
     const TemporaryFolder folder;
-    return run(Arguments{"render", scene.string(), "-o", (folder / "out.pfm").string(), "--size", "24x16",
-                         "-s", "8", "--max-edges", "5", "--json", "-q"} +
+    return run(Arguments{"render", scene.string(), "-o", (folder / "out.pfm").string(), "--size",
+                         "24x16", "-s", "8", "--max-edges", "5", "--json", "-q"} +
                more);
 }
 
@@ -88,9 +88,9 @@ TEST(Extremes, ASceneTooFarAwayToBeHeldIsRefused)
         mean_of(render(wrapped(folder, "cornell_glass", "<translate>4e6 -4e6 4e6</translate>"), how));
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(moved[i] / right[i], 1.0, 1e-3);
     for (const char* far : {"1e15", "1e17"}) {
-        const Outcome outcome = render(wrapped(folder, "cornell_glass",
-                                               std::string("<translate>") + far + " 0 0</translate>"),
-                                       how);
+        const Outcome outcome = render(
+            wrapped(folder, "cornell_glass", std::string("<translate>") + far + " 0 0</translate>"),
+            how);
         EXPECT_EQ(outcome.status, 2);
         EXPECT_EQ(outcome.out, "");
         EXPECT_NE(outcome.err.find("so far from the origin"), std::string::npos) << outcome.err;

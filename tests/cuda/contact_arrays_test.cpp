@@ -1,0 +1,122 @@
+// The ends of paths that are no surfaces: the eye, point and spot lights. Judging paths from the floats' own
+// vertices does not see where the floats have put these; so their place is judged here, by the scene in
+// double precision: they begin their rays on the side of every surface on which they are, however near it.
+
+#include "cuda/transport/scene_arrays.h"
+#include "scenes/contacts.h"
+#include "tests/cuda/touching_scenes.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using cuda_test::Touching;
+using scenes::Vec3;
+
+/// As kernels do it (leave_end).
+Vec3 origin_of(const gpu::SceneArrays& arrays, const gpu::Vec3& position, const gpu::EndContacts& contacts,
+               const gpu::Vec3& direction)
+{
+    gpu::Vec3 origin = position;
+    for (std::uint32_t i = 0; i < contacts.plane_count; ++i) {
+        const gpu::ContactPlane& plane = arrays.contact_planes[contacts.first_plane + i];
+        origin += glm::dot(direction, plane.normal) < 0 ? -plane.push : plane.push;
+    }
+    return Vec3(origin);
+}
+
+/// How far `p` is from the triangle's plane as floats have it, along its normal.
+double height_over(const gpu::Triangle& triangle, const Vec3& p)
+{
+    const Vec3 a(triangle.vertices[0]);
+    const Vec3 normal =
+        glm::normalize(glm::cross(Vec3(triangle.vertices[1]) - a, Vec3(triangle.vertices[2]) - a));
+    return glm::dot(p - a, normal);
+}
+
+Vec3 any_direction()
+{
+    const auto any = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
+    const Vec3 w(any(), any(), any());
+    return glm::length(w) > 0.1 ? glm::normalize(w) : Vec3(0.6, 0, 0.8);
+}
+
+/// Checks the origin of a ray from an end at `exact` (in the scene's own coordinates).
+void check_end(const scenes::Scene& scene, const gpu::SceneArrays& arrays, const Vec3& exact,
+               const gpu::Vec3& position, const gpu::EndContacts& contacts)
+{
+    const gpu::Vec3 direction(any_direction());
+    const Vec3 origin = origin_of(arrays, position, contacts, direction);
+    const double near = 1e-3 / arrays.place.scale;
+    // What a segment may err by (clearance.h, step 3): nearer than that a plane would be met by chance.
+    const double uncertain = 12.4 * 0x1p-24 * arrays.diagonal;
+    int looked_at = 0;
+    for (const scenes::NearSurface& surface : scenes::surfaces_near(scene, exact, near)) {
+        if (surface.primitive >= arrays.triangles.size()) continue;
+        const double height = height_over(arrays.triangles[surface.primitive], origin);
+        const int side = surface.side != 0 ? surface.side
+                         : glm::dot(Vec3(direction), surface.normal) < 0 ? -1
+                                                                        : 1;
+        RC_ASSERT(side * height > uncertain);
+        ++looked_at;
+    }
+    RC_CLASSIFY(looked_at > 0, "near a triangle");
+    // And it stays where it is: three planes at right angles move it by sqrt(3) clearances at most.
+    RC_ASSERT(glm::length(origin - (exact - arrays.place.origin) * arrays.place.scale) <
+              40 * 0x1p-24 * arrays.diagonal);
+}
+
+RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())
+{
+    const auto kind = *rc::gen::element(Touching::point_light_on_lamp, Touching::point_light_on_wall,
+                                        Touching::point_light_in_corner, Touching::spot_light_on_wall,
+                                        Touching::eye_on_wall, Touching::eye_in_edge);
+    // None, or anything from far below a float's rounding to far above.
+    const double gap = *rc::gen::inRange(0, 4) == 0 ? 0 : std::pow(10, -0.1 * *rc::gen::inRange(30, 120));
+    const scenes::Scene scene =
+        cuda_test::touching_scene(kind, *rc::gen::inRange<std::uint32_t>(0, 1u << 30), gap);
+    const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+    check_end(scene, arrays, scene.camera->eye, arrays.eye, arrays.eye_contacts);
+    for (std::size_t i = 0; i < arrays.emitters.size(); ++i) {
+        const gpu::Emitter& emitter = arrays.emitters[i];
+        const gpu::Light& light = arrays.lights[i];
+        if (emitter.kind == gpu::EmitterKind::point)
+            check_end(scene, arrays, scene.point_lights[emitter.index].position, light.position,
+                      light.contacts);
+        if (emitter.kind == gpu::EmitterKind::spot)
+            check_end(scene, arrays, scene.spot_lights[emitter.index].position, light.position,
+                      light.contacts);
+    }
+}
+
+TEST(EndsOfPaths, OfAnOrdinarySceneTouchNothing)
+{
+    scenes::Scene scene = cuda_test::touching_scene(Touching::point_light_on_wall, 1, 0.01);
+    const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+    EXPECT_TRUE(arrays.contact_planes.empty());
+    EXPECT_TRUE(arrays.contact_triangles.empty());
+    EXPECT_TRUE(arrays.coincident.empty());
+}
+
+// Floats cannot tell a lamp that is 1e-9 in front of its wall from one behind it; doubles can.
+TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
+{
+    for (const double gap : {1e-9, -1e-9, 0.0}) {
+        const scenes::Scene scene = cuda_test::touching_scene(Touching::lamp_in_wall, 2, gap);
+        const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+        // The lamp's triangles are the last; the wall that they coincide with faces as they do.
+        const gpu::Surface& lamp = arrays.surfaces.back();
+        ASSERT_GT(lamp.coincident_count, 0u);
+        for (std::uint32_t i = 0; i < lamp.coincident_count; ++i)
+            EXPECT_EQ(arrays.coincident[lamp.first_coincident + i].side, gap == 0 ? 0 : gap > 0 ? -1 : 1)
+                << gap;
+    }
+    const scenes::Scene apart = cuda_test::touching_scene(Touching::lamp_in_wall, 2, 1e-4);
+    EXPECT_TRUE(gpu::scene_arrays(apart, true).coincident.empty());
+}
+
+} // namespace

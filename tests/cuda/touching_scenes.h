@@ -1,0 +1,33 @@
+#pragma once
+
+// Rooms in which something touches what rounding cannot tell it from, turned and moved at random so that
+// no coordinate is exact.
+
+#include "scenes/scene.h"
+
+#include <cstdint>
+#include <string>
+
+namespace cuda_test {
+
+enum class Touching {
+    point_light_on_lamp, // in the plane of a lamp that hangs in the room
+    point_light_on_wall,
+    point_light_in_corner, // of three walls
+    point_light_on_sphere,
+    spot_light_on_wall,
+    eye_on_wall,
+    eye_in_edge, // of two walls
+    lamp_in_wall,
+    lamps_back_to_back,
+    lamp_under_lamp, // two that shine to the same side: the lower number is seen
+    glass_on_floor
+};
+
+/// A room of kind `kind`, drawn from `seed`. `gap` (>= 0, in units of half the room's width) moves what
+/// touches off what it touches, into the room: 0 for contact. With a gap it is a scene like any other.
+scenes::Scene touching_scene(Touching kind, std::uint32_t seed, double gap);
+
+std::string name_of(Touching kind);
+
+} // namespace cuda_test
