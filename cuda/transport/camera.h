@@ -1,8 +1,8 @@
 #pragma once
 
-// The pinhole camera: from a point of the film to a ray and back, and what the film measures. W_e and its
-// cosines are those of docs/bdpt.md, section 1. Only W_e cos is ever needed here, which is the density of
-// eye walks: pdf_solid_angle.
+// The pinhole camera: from a point of the film to a ray and back, and what the film measures. W_e and
+// its cosines are those of docs/bdpt.md, section 1. Only W_e cos is ever needed here, which is the
+// density of eye walks: pdf_solid_angle.
 
 #include "cuda/parallel/vec.h"
 

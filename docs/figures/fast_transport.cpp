@@ -4,10 +4,10 @@
 //
 // figure_fast_transport --help says how to call it. 240 x 160 pixels, at most 6 edges.
 
+#include "cli/rounds.h"
 #include "cuda/transport/renderer.h"
 #include "docs/figures/measure.h"
 #include "docs/figures/program.h"
-#include "docs/figures/rounds.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 #include "ref/transport/render.h"
@@ -79,7 +79,7 @@ std::string rates_text(const std::vector<double>& rates)
 {
     std::vector<double> thousands;
     for (const double rate : rates) thousands.push_back(rate / 1e3);
-    return to_text(figures::mean_of_rounds(thousands));
+    return to_text(cli::mean_of_rounds(thousands));
 }
 
 /// Path tracing, then bidirectional path tracing.
@@ -93,7 +93,7 @@ void compare(const scenes::Scene& scene, const figures::RoundOptions& options, s
     const golden::Image truth =
         fast(scene, gpu::Integrator::bdpt, 1, options.reference_seconds, options.seed).image;
     std::array<std::vector<double>, 2> efficiencies; // 1 / (relMSE s)
-    std::vector<figures::Measurement> measurements;  // for each integrator: fast, reference, two threads
+    std::vector<cli::Measurement> measurements;      // for each integrator: fast, reference, two threads
     const auto seed_of = [&](std::size_t round) { return options.seed + 1 + round; };
     for (std::size_t i = 0; i < integrators.size(); ++i) {
         measurements.emplace_back([&, i](std::size_t round) {
@@ -110,7 +110,7 @@ void compare(const scenes::Scene& scene, const figures::RoundOptions& options, s
             return fast(scene, integrators[i], 2, options.seconds, seed_of(round)).samples_per_second;
         });
     }
-    const auto rates = figures::measure_in_rounds(options.rounds, random, measurements);
+    const auto rates = cli::measure_in_rounds(options.rounds, random, measurements);
 
     std::printf("| %s |", scene.name.c_str());
     for (std::size_t i = 0; i < integrators.size(); ++i) {
@@ -118,11 +118,11 @@ void compare(const scenes::Scene& scene, const figures::RoundOptions& options, s
         const std::vector<double>& reference = rates[3 * i + 1];
         const std::vector<double>& two = rates[3 * i + 2];
         std::printf(" %s | %s | %s | %s | %s |", rates_text(one).c_str(), rates_text(reference).c_str(),
-                    to_text(figures::ratio_of_rounds(one, reference)).c_str(),
-                    to_text(figures::ratio_of_rounds(two, one)).c_str(),
-                    to_text(figures::mean_of_rounds(efficiencies[i])).c_str());
+                    to_text(cli::ratio_of_rounds(one, reference)).c_str(),
+                    to_text(cli::ratio_of_rounds(two, one)).c_str(),
+                    to_text(cli::mean_of_rounds(efficiencies[i])).c_str());
     }
-    const figures::Ratio gain = figures::ratio_of_rounds(efficiencies[1], efficiencies[0]);
+    const cli::Ratio gain = cli::ratio_of_rounds(efficiencies[1], efficiencies[0]);
     std::printf(" %s | %s |\n", to_text(gain).c_str(),
                 !gain.decided() ? "not decided" : names[gain.ratio > 1.0 ? 1 : 0]);
     std::fflush(stdout);
@@ -136,16 +136,16 @@ void measure_needs(const scenes::Scene& scene, const figures::RoundOptions& opti
                                  gpu::Needs{false, true, false}, gpu::Needs{false, false, true},
                                  gpu::Needs{true, true, true}};
     for (std::size_t i = 0; i < integrators.size(); ++i) {
-        std::vector<figures::Measurement> measurements;
+        std::vector<cli::Measurement> measurements;
         for (const gpu::Needs& needs : more)
             measurements.emplace_back([&, i, needs](std::size_t round) {
                 return fast(scene, integrators[i], 1, options.seconds, options.seed + 1 + round, needs)
                     .samples_per_second;
             });
-        const auto rates = figures::measure_in_rounds(options.rounds, random, measurements);
+        const auto rates = cli::measure_in_rounds(options.rounds, random, measurements);
         std::printf("| %s | %s | %s |", scene.name.c_str(), names[i], rates_text(rates[0]).c_str());
         for (std::size_t j = 1; j < more.size(); ++j)
-            std::printf(" %s |", to_text(figures::ratio_of_rounds(rates[j], rates[0])).c_str());
+            std::printf(" %s |", to_text(cli::ratio_of_rounds(rates[j], rates[0])).c_str());
         std::printf("\n");
         std::fflush(stdout);
     }

@@ -1,6 +1,6 @@
 // Means, ratios and intervals over rounds; and that the rounds are what they are said to be.
 
-#include "docs/figures/rounds.h"
+#include "cli/rounds.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 namespace {
 
-using namespace figures;
+using namespace cli;
 
 // Student's t for two degrees of freedom at 97.5% is 4.302653, for one 12.706205.
 TEST(Rounds, MeansHaveStudentsInterval)

@@ -1,4 +1,4 @@
-#include "docs/figures/rounds.h"
+#include "cli/rounds.h"
 
 #include "golden/statistics.h"
 
@@ -11,7 +11,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace figures {
+namespace cli {
 
 Measured mean_of_rounds(const std::vector<double>& rounds)
 {
@@ -66,4 +66,4 @@ std::string to_text(const Ratio& ratio)
     return text.data();
 }
 
-} // namespace figures
+} // namespace cli

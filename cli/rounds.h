@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace figures {
+namespace cli {
 
 /// A mean with the half width of its 95% interval.
 struct Measured {
@@ -48,4 +48,4 @@ std::string to_text(const Measured& measured);
 /// "1.73 (1.60 to 1.88)", three digits each.
 std::string to_text(const Ratio& ratio);
 
-} // namespace figures
+} // namespace cli
