@@ -1,8 +1,8 @@
 #pragma once
 
-// The pinhole camera: from a point of the film to a ray and back, and what the film measures. Importance
-// and density are those of the reference: W_e = 1 / (A cos^4), A the film's area at distance 1, and the
-// number of pixels cancels against as many light walks as there are eye walks.
+// The pinhole camera: from a point of the film to a ray and back, and what the film measures. W_e and
+// its cosines are those of docs/bdpt.md, section 1. Only W_e cos is ever needed here, which is the
+// density of eye walks: pdf_solid_angle.
 
 #include "cuda/parallel/vec.h"
 
@@ -37,13 +37,6 @@ struct Camera {
             return false;
         pixel = static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x);
         return true;
-    }
-
-    /// W_e (sr^-1) towards a unit direction within the picture, whose cosine is given.
-    [[nodiscard]] HD float importance(float cosine_w) const
-    {
-        const float squared = cosine_w * cosine_w;
-        return 1.0f / (film_area * squared * squared);
     }
 
     /// The density with which eye walks over the whole film start in such a direction.

@@ -1,10 +1,9 @@
 // What a fixed distance does to rays that leave a surface, over scene scales, and what an error bound
 // does. In single precision, where the question arises: a sphere of radius 1 at distance 10 from the
 // origin, all lengths times the scale.
-//
-// usage: figure_epsilon
-// Writes the table of docs/bdpt.md to stdout.
+// figure_epsilon --help says how to call it.
 
+#include "docs/figures/program.h"
 #include "ref/transport/sampling.h"
 
 #include <glm/geometric.hpp>
@@ -76,9 +75,7 @@ Outcome measure(float scale, float epsilon)
     return outcome;
 }
 
-} // namespace
-
-int main()
+void print_table()
 {
     constexpr std::array<float, 4> methods = {1e-2F, 1e-4F, 1e-6F, -1.0F};
     std::printf(
@@ -92,5 +89,13 @@ int main()
         }
         std::printf("\n");
     }
-    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App app("Prints the table of docs/bdpt.md on distances by which rays leave a surface",
+                 "figure_epsilon");
+    return figures::run(app, argc, argv, print_table);
 }

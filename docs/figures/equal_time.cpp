@@ -1,28 +1,25 @@
 // Where does it pay to trace from both ends? The error of path tracing, bidirectional path tracing and
 // light tracing after one second of CPU time, on each scene; and where the time of a bidirectional
-// sample goes.
+// sample goes. Measured by rounds, with intervals (rounds.h).
 //
-// usage: figure_equal_time [SCENE.dae...] [--frame SCENE.dae...]
-// Writes a table of docs/bdpt.md to stdout. 96 x 64 pixels, at most 6 edges, one thread; the camera of
-// scenes after --frame is moved back to where it sees everything.
+// figure_equal_time --help says how to call it. 96 x 64 pixels, at most 6 edges, one thread.
 
+#include "cli/rounds.h"
 #include "docs/figures/measure.h"
+#include "docs/figures/program.h"
 #include "golden/image.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/connect.h"
 #include "ref/transport/path_tracer.h"
 #include "ref/transport/render.h"
 #include "ref/transport/subpath.h"
-#include "scenes/frame.h"
-#include "scenes/read_scene.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <exception>
-#include <stdexcept>
-#include <string_view>
+#include <random>
+#include <string>
 #include <vector>
 
 namespace {
@@ -30,8 +27,14 @@ namespace {
 constexpr int width = 96;
 constexpr int height = 64;
 constexpr int max_edges = 6;
-constexpr double seconds_each = 0.5;      // CPU time of every rendering that is judged
-constexpr double seconds_reference = 6.0; // of the bidirectional one that they are judged against
+
+struct Method {
+    const char* name;
+    ref::Integrator integrator;
+};
+constexpr std::array methods = {Method{"path", ref::trace_path},
+                                Method{"bdpt", ref::trace_bidirectionally},
+                                Method{"light", ref::trace_light}};
 
 struct Timed {
     golden::Image image;
@@ -52,11 +55,14 @@ Timed render_for(const ref::World& world, ref::Integrator integrator, std::uint6
     return {film.mean(), static_cast<double>(film.batches()) * width * height, kept};
 }
 
+constexpr std::array part_names = {"walks", "emission hit", "next event", "light image", "inner"};
+using Shares = std::array<double, part_names.size()>;
+
 /// Shares of the time of bidirectional samples: walks, then the four families.
-std::array<double, 5> shares_of_time(const ref::World& world)
+Shares shares_of_time(const ref::World& world, std::uint64_t seed)
 {
     using Clock = std::chrono::steady_clock;
-    std::array<double, 5> spent{};
+    Shares spent{};
     const ref::PathOptions options{.max_edges = max_edges};
     const auto timed = [&](std::size_t what, auto&& work) {
         const auto start = Clock::now();
@@ -65,7 +71,7 @@ std::array<double, 5> shares_of_time(const ref::World& world)
     };
     for (std::uint32_t pixel = 0; pixel < width * height; ++pixel)
         for (std::uint32_t sample = 0; sample < 8; ++sample) {
-            const ref::SampleId id{0, pixel, sample};
+            const ref::SampleId id{seed, pixel, sample};
             std::vector<ref::Vertex> z;
             std::vector<ref::Vertex> y;
             timed(0, [&] {
@@ -112,49 +118,101 @@ bool light_tracing_sees_everything(const scenes::Scene& scene)
     return std::ranges::none_of(scene.materials, is_smooth);
 }
 
-void judge(const char* file, bool framed)
+/// The values of one scene, by round.
+struct Rounds {
+    std::array<std::vector<double>, methods.size()> rates;  // samples per second
+    std::array<std::vector<double>, methods.size()> errors; // relMSE after one second
+    std::array<std::vector<double>, part_names.size()> shares;
+};
+
+Rounds measure(const scenes::Scene& scene, const figures::RoundOptions& options, std::mt19937_64& random)
 {
-    scenes::Scene scene = scenes::read_scene(file);
-    if (framed) scenes::frame_camera(scene);
     const ref::World world(scene, width, height);
-    const Timed reference = render_for(world, ref::trace_bidirectionally, 1, seconds_reference);
-    std::printf("| %s%s |", scene.name.c_str(), framed ? " (framed)" : "");
-    for (const ref::Integrator integrator :
-         {ref::trace_path, ref::trace_bidirectionally, ref::trace_light}) {
-        const Timed timed = render_for(world, integrator, 2, seconds_each);
-        const bool blind = integrator == ref::trace_light && !light_tracing_sees_everything(scene);
-        // The error of independent samples is inverse to the time: after one second of it.
-        std::printf(" %.0fk | %.2g%s |", timed.samples / timed.seconds / 1000.0,
-                    figures::relative_mean_square_error(timed.image, reference.image) * timed.seconds,
-                    blind ? " *" : "");
+    const golden::Image reference =
+        render_for(world, ref::trace_bidirectionally, options.seed, options.reference_seconds).image;
+    Rounds values;
+    std::vector<cli::Measurement> measurements;
+    // No two pictures share their random numbers.
+    const auto seed_of = [&](std::size_t round, std::size_t i) {
+        return options.seed + 1 + round * (methods.size() + 1) + i;
+    };
+    for (std::size_t i = 0; i < methods.size(); ++i)
+        measurements.emplace_back([&, i](std::size_t round) {
+            const Timed timed =
+                render_for(world, methods[i].integrator, seed_of(round, i), options.seconds);
+            values.rates[i].push_back(timed.samples / timed.seconds);
+            // The error of independent samples is inverse to the time: after one second of it.
+            return figures::relative_mean_square_error(timed.image, reference) * timed.seconds;
+        });
+    measurements.emplace_back([&](std::size_t round) {
+        const Shares shares = shares_of_time(world, seed_of(round, methods.size()));
+        for (std::size_t i = 0; i < shares.size(); ++i) values.shares[i].push_back(shares[i]);
+        return 0.0;
+    });
+    const auto errors = cli::measure_in_rounds(options.rounds, random, measurements);
+    std::copy_n(errors.begin(), methods.size(), values.errors.begin());
+    return values;
+}
+
+/// What the interval of the quotient of errors allows to say.
+std::string verdict(const cli::Ratio& path_over_bdpt)
+{
+    if (!path_over_bdpt.decided()) return "not decided";
+    return path_over_bdpt.ratio > 1.0 ? "bdpt" : "path";
+}
+
+void print_scene(const scenes::Scene& scene, const Rounds& values)
+{
+    std::printf("| %s |", scene.name.c_str());
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+        std::vector<double> thousands;
+        for (const double rate : values.rates[i]) thousands.push_back(rate / 1e3);
+        const bool blind =
+            methods[i].integrator == ref::trace_light && !light_tracing_sees_everything(scene);
+        std::printf(" %s | %s%s |", to_text(cli::mean_of_rounds(thousands)).c_str(),
+                    to_text(cli::mean_of_rounds(values.errors[i])).c_str(), blind ? " *" : "");
     }
-    for (const double share : shares_of_time(world)) std::printf(" %.0f%% |", 100.0 * share);
+    const cli::Ratio ratio = cli::ratio_of_rounds(values.errors[0], values.errors[1]);
+    std::printf(" %s | %s |", to_text(ratio).c_str(), verdict(ratio).c_str());
+    for (const std::vector<double>& shares : values.shares) {
+        std::vector<double> percent;
+        for (const double share : shares) percent.push_back(100.0 * share);
+        std::printf(" %s |", to_text(cli::mean_of_rounds(percent)).c_str());
+    }
     std::printf("\n");
     std::fflush(stdout);
+}
+
+void print_head()
+{
+    std::string head = "| scene |";
+    for (const Method& method : methods)
+        head += std::string(" ") + method.name + ": 1000 samples/s | relMSE after 1 s |";
+    head += " relMSE path / bdpt | less error |";
+    for (const char* part : part_names) head += std::string(" ") + part + ", % |";
+    std::string line;
+    for (const char c : head)
+        if (c == '|') line += line.empty() ? "|" : "---|";
+    std::printf("%s\n%s\n", head.c_str(), line.c_str());
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-    try {
-        if (argc < 2)
-            throw std::invalid_argument(
-                "usage: figure_equal_time [SCENE.dae...] [--frame SCENE.dae...]");
-        std::printf("| scene | path: samples/s | relMSE | bdpt: samples/s | relMSE | light: samples/s | "
-                    "relMSE | "
-                    "walks | emission hit | next event | light image | inner |\n"
-                    "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-        bool framed = false;
-        for (int i = 1; i < argc; ++i) {
-            if (std::string_view(argv[i]) == "--frame")
-                framed = true;
-            else
-                judge(argv[i], framed);
-        }
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "figure_equal_time: %s\n", error.what());
-        return 2;
-    }
+    CLI::App app(
+        "Prints the table of docs/bdpt.md on path, bidirectional and light tracing at equal CPU time",
+        "figure_equal_time");
+    figures::SceneFiles files;
+    figures::RoundOptions options;
+    figures::add_scene_options(app, files);
+    figures::add_round_options(app, options);
+    app.footer("Means over the rounds with 95% intervals.\n"
+               "Example: figure_equal_time scenes/cornell_glass.dae --rounds 10");
+    return figures::run(app, argc, argv, [&] {
+        const std::vector<scenes::Scene> all = figures::read_scenes(files);
+        std::mt19937_64 random(options.seed);
+        print_head();
+        for (const scenes::Scene& scene : all) print_scene(scene, measure(scene, options, random));
+    });
 }

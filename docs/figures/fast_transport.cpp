@@ -1,26 +1,23 @@
 // How fast is the fast path? Samples per CPU second beside the reference, the error of path tracing and
 // bidirectional path tracing after one second, what a second thread brings, and what kernels gain by
-// leaving out what a scene does not have.
+// leaving out what a scene does not have. Measured by rounds, with intervals (rounds.h).
 //
-// usage: figure_fast_transport [SCENE.dae...] [--frame SCENE.dae...]
-// Writes the tables of docs/cuda-bdpt.md to stdout. 240 x 160 pixels, at most 6 edges; the camera of
-// scenes after --frame is moved back to where it sees everything. Best of three runs of 0.7 s each.
+// figure_fast_transport --help says how to call it. 240 x 160 pixels, at most 6 edges.
 
+#include "cli/rounds.h"
 #include "cuda/transport/renderer.h"
 #include "docs/figures/measure.h"
+#include "docs/figures/program.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 #include "ref/transport/render.h"
-#include "scenes/frame.h"
-#include "scenes/read_scene.h"
 
-#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
-#include <exception>
-#include <stdexcept>
+#include <functional>
+#include <random>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace {
@@ -28,9 +25,6 @@ namespace {
 constexpr int width = 240;
 constexpr int height = 160;
 constexpr int max_edges = 6;
-constexpr double seconds_each = 0.7;
-constexpr double seconds_reference = 8.0; // of the picture that errors are measured by
-constexpr int runs = 3;
 
 double wall_seconds()
 {
@@ -70,62 +64,88 @@ Rendered fast(const scenes::Scene& scene, gpu::Integrator integrator, unsigned t
                       [&](std::uint64_t number) { return renderer->render_batch(number, {})->mean; });
 }
 
-Rendered by_reference(const scenes::Scene& scene, ref::Integrator integrator)
+Rendered by_reference(const scenes::Scene& scene, ref::Integrator integrator, double seconds,
+                      std::uint64_t seed)
 {
     const ref::World world(scene, width, height);
-    const ref::RenderOptions options{{.seed = 2, .max_edges = max_edges}, 1U << 20, 4, 1};
-    return render_for(seconds_each, figures::cpu_seconds, [&](std::uint64_t number) {
+    const ref::RenderOptions options{{.seed = seed, .max_edges = max_edges}, 1U << 20, 4, 1};
+    return render_for(seconds, figures::cpu_seconds, [&](std::uint64_t number) {
         return *ref::render_batch(world, integrator, options, number);
     });
 }
 
-double best(const std::vector<double>& values)
+/// Rates in thousands of samples per second.
+std::string rates_text(const std::vector<double>& rates)
 {
-    return *std::ranges::max_element(values);
+    std::vector<double> thousands;
+    for (const double rate : rates) thousands.push_back(rate / 1e3);
+    return to_text(cli::mean_of_rounds(thousands));
 }
 
-/// The best rate of several runs.
-template <class Render>
-double rate_of(const Render& render)
-{
-    std::vector<double> rates;
-    for (int i = 0; i < runs; ++i) rates.push_back(render().samples_per_second);
-    return best(rates);
-}
+/// Path tracing, then bidirectional path tracing.
+constexpr std::array integrators = {gpu::Integrator::path, gpu::Integrator::bdpt};
+constexpr std::array names = {"path", "bdpt"};
+constexpr std::array reference_integrators = {ref::trace_path, ref::trace_bidirectionally};
 
-void compare(const scenes::Scene& scene)
+/// One scene in the first table: rates, and what they are worth.
+void compare(const scenes::Scene& scene, const figures::RoundOptions& options, std::mt19937_64& random)
 {
-    using enum gpu::Integrator;
-    const Rendered truth = fast(scene, bdpt, 1, seconds_reference, 1);
-    std::printf("| %s |", scene.name.c_str());
-    for (const bool both : {false, true}) {
-        const gpu::Integrator integrator = both ? bdpt : path;
-        const double rate = rate_of([&] { return fast(scene, integrator, 1, seconds_each, 2); });
-        const double reference = rate_of(
-            [&] { return by_reference(scene, both ? ref::trace_bidirectionally : ref::trace_path); });
-        const double two = rate_of([&] { return fast(scene, integrator, 2, seconds_each, 2); });
-        const Rendered judged = fast(scene, integrator, 1, seconds_each, 3);
-        const double error =
-            figures::relative_mean_square_error(judged.image, truth.image) * judged.seconds;
-        std::printf(" %.0fk | %.0fk | %.1f | %.2f | %.3g |", rate / 1e3, reference / 1e3,
-                    rate / reference, two / rate, 1.0 / error);
+    const golden::Image truth =
+        fast(scene, gpu::Integrator::bdpt, 1, options.reference_seconds, options.seed).image;
+    std::array<std::vector<double>, 2> efficiencies; // 1 / (relMSE s)
+    std::vector<cli::Measurement> measurements;      // for each integrator: fast, reference, two threads
+    const auto seed_of = [&](std::size_t round) { return options.seed + 1 + round; };
+    for (std::size_t i = 0; i < integrators.size(); ++i) {
+        measurements.emplace_back([&, i](std::size_t round) {
+            const Rendered rendered = fast(scene, integrators[i], 1, options.seconds, seed_of(round));
+            efficiencies[i].push_back(
+                1.0 / (figures::relative_mean_square_error(rendered.image, truth) * rendered.seconds));
+            return rendered.samples_per_second;
+        });
+        measurements.emplace_back([&, i](std::size_t round) {
+            return by_reference(scene, reference_integrators[i], options.seconds, seed_of(round))
+                .samples_per_second;
+        });
+        measurements.emplace_back([&, i](std::size_t round) {
+            return fast(scene, integrators[i], 2, options.seconds, seed_of(round)).samples_per_second;
+        });
     }
-    std::printf("\n");
+    const auto rates = cli::measure_in_rounds(options.rounds, random, measurements);
+
+    std::printf("| %s |", scene.name.c_str());
+    for (std::size_t i = 0; i < integrators.size(); ++i) {
+        const std::vector<double>& one = rates[3 * i];
+        const std::vector<double>& reference = rates[3 * i + 1];
+        const std::vector<double>& two = rates[3 * i + 2];
+        std::printf(" %s | %s | %s | %s | %s |", rates_text(one).c_str(), rates_text(reference).c_str(),
+                    to_text(cli::ratio_of_rounds(one, reference)).c_str(),
+                    to_text(cli::ratio_of_rounds(two, one)).c_str(),
+                    to_text(cli::mean_of_rounds(efficiencies[i])).c_str());
+    }
+    const cli::Ratio gain = cli::ratio_of_rounds(efficiencies[1], efficiencies[0]);
+    std::printf(" %s | %s |\n", to_text(gain).c_str(),
+                !gain.decided() ? "not decided" : names[gain.ratio > 1.0 ? 1 : 0]);
     std::fflush(stdout);
 }
 
-void measure_needs(const scenes::Scene& scene)
+/// One scene in the second table: kernels that can do more than the scene needs.
+void measure_needs(const scenes::Scene& scene, const figures::RoundOptions& options,
+                   std::mt19937_64& random)
 {
-    for (const bool both : {false, true}) {
-        const gpu::Integrator integrator = both ? gpu::Integrator::bdpt : gpu::Integrator::path;
-        const auto rate = [&](gpu::Needs at_least) {
-            return rate_of([&] { return fast(scene, integrator, 1, seconds_each, 2, at_least); });
-        };
-        const double own = rate({});
-        std::printf("| %s | %s | %.0fk |", scene.name.c_str(), both ? "bdpt" : "path", own / 1e3);
-        for (const gpu::Needs more : {gpu::Needs{true, false, false}, gpu::Needs{false, true, false},
-                                      gpu::Needs{false, false, true}, gpu::Needs{true, true, true}})
-            std::printf(" %+.1f%% |", 100.0 * (rate(more) / own - 1.0));
+    constexpr std::array more = {gpu::Needs{}, gpu::Needs{true, false, false},
+                                 gpu::Needs{false, true, false}, gpu::Needs{false, false, true},
+                                 gpu::Needs{true, true, true}};
+    for (std::size_t i = 0; i < integrators.size(); ++i) {
+        std::vector<cli::Measurement> measurements;
+        for (const gpu::Needs& needs : more)
+            measurements.emplace_back([&, i, needs](std::size_t round) {
+                return fast(scene, integrators[i], 1, options.seconds, options.seed + 1 + round, needs)
+                    .samples_per_second;
+            });
+        const auto rates = cli::measure_in_rounds(options.rounds, random, measurements);
+        std::printf("| %s | %s | %s |", scene.name.c_str(), names[i], rates_text(rates[0]).c_str());
+        for (std::size_t j = 1; j < more.size(); ++j)
+            std::printf(" %s |", to_text(cli::ratio_of_rounds(rates[j], rates[0])).c_str());
         std::printf("\n");
         std::fflush(stdout);
     }
@@ -135,32 +155,28 @@ void measure_needs(const scenes::Scene& scene)
 
 int main(int argc, char** argv)
 {
-    try {
-        if (argc < 2)
-            throw std::invalid_argument(
-                "usage: figure_fast_transport [SCENE.dae...] [--frame SCENE.dae...]");
-        std::vector<scenes::Scene> all;
-        bool framed = false;
-        for (int i = 1; i < argc; ++i) {
-            if (std::string_view(argv[i]) == "--frame") {
-                framed = true;
-                continue;
-            }
-            all.push_back(scenes::read_scene(argv[i]));
-            if (framed) scenes::frame_camera(all.back());
-        }
+    CLI::App app("Prints the tables of docs/cuda-bdpt.md on the speed of the fast path on the host",
+                 "figure_fast_transport");
+    figures::SceneFiles files;
+    figures::RoundOptions options{.seconds = 0.7, .reference_seconds = 8.0};
+    figures::add_scene_options(app, files);
+    figures::add_round_options(app, options);
+    app.footer("Means over the rounds with 95% intervals; quotients with theirs in brackets.\n"
+               "Example: figure_fast_transport scenes/cornell_glass.dae --rounds 10");
+    return figures::run(app, argc, argv, [&] {
+        const std::vector<scenes::Scene> all = figures::read_scenes(files);
+        std::mt19937_64 random(options.seed);
+        std::printf("| scene |");
+        for (const char* name : names)
+            std::printf(" %s: 1000 samples/s | ref | fast / ref | two threads / one | 1/(relMSE s) |",
+                        name);
         std::printf(
-            "| scene | path: samples/s | ref | ratio | two threads | 1/(relMSE s) | bdpt: samples/s | "
-            "ref | "
-            "ratio | two threads | 1/(relMSE s) |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
-        for (const scenes::Scene& scene : all) compare(scene);
+            " efficiency bdpt / path | more efficient |\n|---|---|---|---|---|---|---|---|---|---|---"
+            "|---|---|\n");
+        for (const scenes::Scene& scene : all) compare(scene, options, random);
         std::printf(
-            "\n| scene | integrator | samples/s | with spheres | with mirrors and glass | with other "
-            "lights | with all |\n|---|---|---|---|---|---|---|\n");
-        for (const scenes::Scene& scene : all) measure_needs(scene);
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "figure_fast_transport: %s\n", error.what());
-        return 2;
-    }
+            "\n| scene | integrator | 1000 samples/s | rate with spheres | with mirrors and glass | "
+            "with other lights | with all |\n|---|---|---|---|---|---|---|\n");
+        for (const scenes::Scene& scene : all) measure_needs(scene, options, random);
+    });
 }

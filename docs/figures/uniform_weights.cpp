@@ -1,21 +1,20 @@
 // What happens to glass when every path is shared equally among all strategies that one can name,
 // whether or not they can find it: the weights 1 / (i + j + 1) of a 2015 course report, for i eye and j
 // light vertices after the first, beside the right ones and beside path tracing.
-//
-// usage: figure_uniform_weights SCENE.dae OUT.png
-// Writes the three pictures side by side, and the table of docs/bdpt.md to stdout.
+// figure_uniform_weights --help says how to call it.
 
+#include "docs/figures/program.h"
+#include "golden/file_ending.h"
 #include "golden/label.h"
 #include "golden/png.h"
+#include "golden/write_image.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 #include "ref/transport/render.h"
-#include "scenes/read_scene.h"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -86,7 +85,7 @@ std::array<double, regions> region_means(const golden::Image& image, const std::
     return sum;
 }
 
-void draw(const scenes::Scene& scene, const char* out)
+void draw(const scenes::Scene& scene, const std::string& out)
 {
     const ref::World world(scene, width, height);
     std::vector<Region> region;
@@ -143,12 +142,18 @@ void draw(const scenes::Scene& scene, const char* out)
 
 int main(int argc, char** argv)
 {
-    try {
-        if (argc != 3) throw std::invalid_argument("usage: figure_uniform_weights SCENE.dae OUT.png");
-        draw(scenes::read_scene(argv[1]), argv[2]);
-        return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "figure_uniform_weights: %s\n", error.what());
-        return 2;
-    }
+    CLI::App app(
+        "Draws what uniform weights, the balance heuristic and path tracing show, side by side, "
+        "and prints the table of docs/bdpt.md",
+        "figure_uniform_weights");
+    std::string scene;
+    std::string out;
+    app.add_option("scene", scene, "COLLADA file")->required();
+    app.add_option("picture", out, "Picture: .png")->required();
+    return figures::run(app, argc, argv, [&] {
+        if (!golden::has_ending(out, ".png"))
+            throw std::invalid_argument(out + ": the name of the picture must end in .png");
+        golden::check_writable(out);
+        draw(figures::read_scene(scene), out);
+    });
 }

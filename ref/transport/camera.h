@@ -4,10 +4,16 @@
 //
 // A pixel's value is the mean radiance over the pixel. As a measurement of the light that reaches the
 // pinhole [Veach 1997, sec. 8.2] its importance is W_e = 1 / (A cos^4) for a film of area A at distance
-// 1, times the number of pixels, on the pixel itself: one power of the cosine for the tilted pinhole,
-// three for the solid angle that a piece of the film spans. With as many light walks as eye walks over
-// the whole film that number cancels, and what a light walk adds to a pixel is divided by the samples
-// per pixel alone.
+// 1, times the number of pixels, on the pixel itself. The cosine is that between the ray and the viewing
+// direction, which is the pinhole's normal. Three of its powers come from the solid angle that a piece
+// of the film spans; the fourth cancels the cosine that the geometric term G has at the pinhole.
+//
+// That cosine of G is Camera::cosine. The vertex at the eye has no normal, so geometric_term (vertex.h)
+// has no cosine there, and light_image (connect.cpp) multiplies G by it and by W_e. Their product is
+// pdf_solid_angle, the density of eye walks, which therefore begin with weight 1.
+//
+// With as many light walks as eye walks over the whole film the number of pixels cancels, and what a
+// light walk adds to a pixel is divided by the samples per pixel alone.
 
 #include "ref/trees/ray.h"
 #include "scenes/scene.h"

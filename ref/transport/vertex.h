@@ -63,8 +63,9 @@ inline double cosine(const Vertex& vertex, const Vec3& w)
     return vertex.kind == Vertex::Kind::surface ? std::abs(glm::dot(vertex.point.normal, w)) : 1.0;
 }
 
-/// The geometric term between two vertices: cosines at both over the square of the distance, in which a
-/// vertex at infinity counts neither distance nor cosine; the eye's cosine is part of its importance.
+/// The geometric term between two vertices: cosines at both over the square of the distance. A vertex at
+/// infinity counts neither distance nor cosine, and one without a surface no cosine. At the eye that
+/// leaves out a factor of G: camera.h says where it is.
 inline double geometric_term(const Vertex& a, const Vertex& b)
 {
     const Vec3 w = direction(a, b);

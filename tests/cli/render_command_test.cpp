@@ -191,6 +191,21 @@ TEST(Render, CountsMayHaveAnExponent)
     EXPECT_EQ(samples("1e3"), "1000");
     EXPECT_EQ(samples("1.5E+2"), "150");
     EXPECT_EQ(samples("2.50e2"), "250");
+    // In every command.
+    const Outcome made = run({"golden", scene_file("point_over_plane"), "--folder",
+                              folder.path().string(), "--size", "6x4", "--pilot", "4", "-s", "1.6e2"});
+    EXPECT_EQ(made.status, 0) << made.err;
+    EXPECT_EQ(golden::read_exr(folder / "point_over_plane.exr").metadata.at("samples"), "160");
+}
+
+// It asks for what the reference does anyway, and so is no option without effect.
+TEST(Render, TheReferenceFulfilsDeterministic)
+{
+    const TemporaryFolder folder;
+    ASSERT_EQ(run(render("cornell_glass", folder / "a.exr")).status, 0);
+    const Outcome outcome = run(render("cornell_glass", folder / "b.exr", {"--deterministic"}));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
 }
 
 TEST(Render, JsonIsOneObjectWithWhatAScriptNeeds)

@@ -51,6 +51,7 @@ struct Surroundings {
     bool terminal = false; // stdout and stderr are a terminal: both are found in Outcome::out
     std::optional<rlim_t> largest_file{}; // bytes: as if the disk were full beyond
     enum class Output { file, closed_pipe, full_disk, closed } output = Output::file; // stdout
+    std::string program = PLUMBLINE_PROGRAM;
 };
 
 /// Waits for `condition` for as long as a slow machine may take. Whether it came true.
@@ -68,7 +69,7 @@ class Process {
 public:
     explicit Process(const Arguments& arguments, const Surroundings& surroundings = {})
     {
-        std::string program = PLUMBLINE_PROGRAM;
+        std::string program = surroundings.program;
         std::vector<std::string> texts = arguments;
         std::vector<char*> argv = {program.data()};
         for (std::string& text : texts) argv.push_back(text.data());

@@ -1,0 +1,69 @@
+#include "cli/rounds.h"
+
+#include "golden/statistics.h"
+
+#include <boost/math/distributions/students_t.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <stdexcept>
+
+namespace cli {
+
+Measured mean_of_rounds(const std::vector<double>& rounds)
+{
+    if (rounds.size() < 2) throw std::invalid_argument("an interval needs at least two rounds");
+    const golden::Moments moments = golden::moments(rounds);
+    const boost::math::students_t student(moments.count - 1.0);
+    const double quantile = boost::math::quantile(boost::math::complement(student, 0.025));
+    return {moments.mean, quantile * std::sqrt(moments.variance / moments.count)};
+}
+
+Ratio ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b)
+{
+    if (a.size() != b.size()) throw std::invalid_argument("a ratio needs values of the same rounds");
+    std::vector<double> logarithms;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (!(a[i] > 0.0 && b[i] > 0.0)) throw std::invalid_argument("a ratio needs positive values");
+        logarithms.push_back(std::log(a[i] / b[i]));
+    }
+    const auto [mean, half_width] = mean_of_rounds(logarithms);
+    return {std::exp(mean), std::exp(mean - half_width), std::exp(mean + half_width)};
+}
+
+std::vector<std::vector<double>> measure_in_rounds(std::size_t rounds, std::mt19937_64& random,
+                                                   const std::vector<Measurement>& measurements)
+{
+    std::vector<std::vector<double>> values(measurements.size(), std::vector<double>(rounds));
+    std::vector<std::size_t> order(measurements.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t round = 0; round < rounds; ++round) {
+        std::ranges::shuffle(order, random);
+        for (const std::size_t i : order) values[i][round] = measurements[i](round);
+    }
+    return values;
+}
+
+std::string to_text(const Measured& measured)
+{
+    // Decimals behind the point so that the half width has two digits; a mean of hundreds has none.
+    const double exponent =
+        measured.half_width > 0.0 ? std::floor(std::log10(measured.half_width)) : -2.0;
+    const int decimals = std::clamp(1 - static_cast<int>(exponent), 0, 12);
+    std::array<char, 128> text{};
+    std::snprintf(text.data(), text.size(), "%.*f +- %.*f", decimals, measured.mean, decimals,
+                  measured.half_width);
+    return text.data();
+}
+
+std::string to_text(const Ratio& ratio)
+{
+    std::array<char, 128> text{};
+    std::snprintf(text.data(), text.size(), "%.3g (%.3g to %.3g)", ratio.ratio, ratio.low, ratio.high);
+    return text.data();
+}
+
+} // namespace cli

@@ -1,0 +1,51 @@
+#pragma once
+
+// Measurements on a machine with other work on it: all that is compared is measured in every round, in
+// an order that is drawn anew, so that the changing load falls on all alike; how much the rounds differ
+// says how exact the result is.
+
+#include <cstddef>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+/// A mean with the half width of its 95% interval.
+struct Measured {
+    double mean;
+    double half_width;
+};
+
+/// The mean of one value per round, with Student's interval: the rounds are taken to be independent and
+/// roughly normally distributed. Throws std::invalid_argument for fewer than two rounds.
+Measured mean_of_rounds(const std::vector<double>& rounds);
+
+/// How many times as large one thing is as another, with its 95% interval.
+struct Ratio {
+    double ratio, low, high;
+    /// Whether the interval leaves out 1: only then one of the two is larger.
+    [[nodiscard]] bool decided() const { return low > 1.0 || high < 1.0; }
+};
+
+/// The geometric mean of a[i] / b[i] over the rounds i, and Student's interval of its logarithm: what
+/// makes a whole round slower or faster cancels. Throws std::invalid_argument for fewer than two rounds,
+/// for values that are not positive, and for `a` and `b` of different lengths.
+Ratio ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b);
+
+/// A piece of work, told the number of its round; returns what was measured.
+using Measurement = std::function<double(std::size_t round)>;
+
+/// Makes every measurement once in every round, in an order drawn anew from `random`. The values by
+/// measurement, then by round.
+std::vector<std::vector<double>> measure_in_rounds(std::size_t rounds, std::mt19937_64& random,
+                                                   const std::vector<Measurement>& measurements);
+
+/// "0.0263 +- 0.0005": the interval with two digits, the mean as exactly.
+std::string to_text(const Measured& measured);
+
+/// "1.73 (1.60 to 1.88)", three digits each.
+std::string to_text(const Ratio& ratio);
+
+} // namespace cli

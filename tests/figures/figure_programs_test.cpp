@@ -1,0 +1,95 @@
+// The programs that make figures and tables say how they are called, and refuse what they do not know.
+
+#include "tests/cli/run_program.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace {
+
+using namespace cli_test;
+
+class FigureProgram : public testing::TestWithParam<const char*> {
+protected:
+    [[nodiscard]] static Outcome run_figure(const Arguments& arguments)
+    {
+        const auto folder = std::filesystem::path(PLUMBLINE_PROGRAM).parent_path();
+        return run(arguments, {.program = (folder / GetParam()).string()});
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(All, FigureProgram,
+                         testing::Values("figure_epsilon", "figure_equal_time", "figure_fast_transport",
+                                         "figure_uniform_weights"),
+                         [](const auto& program) { return std::string(program.param); });
+
+TEST_P(FigureProgram, SaysHowItIsCalled)
+{
+    const Outcome help = run_figure({"--help"});
+    EXPECT_EQ(help.status, 0);
+    EXPECT_EQ(help.err, "");
+    EXPECT_NE(help.out.find("Usage: " + std::string(GetParam())), std::string::npos) << help.out;
+    EXPECT_EQ(help.out.find('|'), std::string::npos) << "a table";
+}
+
+TEST_P(FigureProgram, RefusesWhatItDoesNotKnow)
+{
+    for (const Arguments& arguments : {Arguments{"--brighter", scene_file("point_over_plane"), "a.png"},
+                                       {"a", "b.png", "c", "--d"}}) {
+        const Outcome outcome = run_figure(arguments);
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+        EXPECT_NE(outcome.err.find("--help"), std::string::npos) << outcome.err;
+    }
+}
+
+/// The cells of each line of a table.
+std::vector<std::vector<std::string>> cells_of(const std::string& table)
+{
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);) {
+        rows.emplace_back();
+        std::istringstream cells(line);
+        for (std::string cell; std::getline(cells, cell, '|');) rows.back().push_back(cell);
+    }
+    return rows;
+}
+
+TEST(EqualTime, MakesATableWithIntervalsAndAVerdictThatFollowsFromThem)
+{
+    const Outcome outcome = run({scene_file("point_over_plane"), scene_file("cornell_glass"), "--rounds",
+                                 "2", "--seconds", "0.01", "--reference-seconds", "0.02"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto rows = cells_of(outcome.out);
+    ASSERT_EQ(rows.size(), 4u) << outcome.out; // head, line, two scenes
+    for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size()) << outcome.out;
+    const auto column = [&](const std::string& name) {
+        return static_cast<std::size_t>(std::ranges::find(rows[0], name) - rows[0].begin());
+    };
+    const std::size_t ratio = column(" relMSE path / bdpt ");
+    const std::size_t verdict = column(" less error ");
+    ASSERT_LT(ratio, rows[0].size());
+    ASSERT_LT(verdict, rows[0].size());
+    for (std::size_t i = 2; i < rows.size(); ++i) {
+        double low = 0.0;
+        double high = 0.0;
+        double middle = 0.0;
+        ASSERT_EQ(std::sscanf(rows[i][ratio].c_str(), " %lf (%lf to %lf)", &middle, &low, &high), 3);
+        EXPECT_EQ(rows[i][verdict], high < 1.0 ? " path " : low > 1.0 ? " bdpt " : " not decided ");
+        EXPECT_NE(rows[i][2].find("+-"), std::string::npos) << rows[i][2];
+    }
+}
+
+TEST(EqualTime, NeedsAScene)
+{
+    const Outcome outcome = run({});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err, "figure_equal_time: no scene is named\n");
+}
+
+} // namespace
