@@ -2,6 +2,8 @@
 
 #include "scenes/contacts.h"
 
+#include <glm/geometric.hpp>
+
 namespace scenes {
 namespace {
 
@@ -11,6 +13,25 @@ std::string describe(const Scene& scene, std::uint32_t primitive)
     const std::size_t number = is_triangle ? primitive : primitive - scene.triangles.size();
     return std::string(is_triangle ? "triangle " : "sphere ") + std::to_string(number + 1) +
            " (material \"" + scene.material_names[material_of(scene, primitive)] + "\")";
+}
+
+/// Whether a picture can show which of two coincident surfaces is seen: not where two opaque ones face
+/// each other, as where a body stands on the ground; nor where their materials are one.
+bool is_worth_a_word(const Scene& scene, std::uint32_t a, std::uint32_t b)
+{
+    const std::uint32_t material_a = material_of(scene, a);
+    const std::uint32_t material_b = material_of(scene, b);
+    if (material_a == material_b) return false;
+    const auto is_opaque = [&](std::uint32_t material) {
+        return std::holds_alternative<Lambertian>(scene.materials[material]) ||
+               std::holds_alternative<Mirror>(scene.materials[material]);
+    };
+    if (!is_opaque(material_a) || !is_opaque(material_b) || a >= scene.triangles.size()) return true;
+    const auto normal = [&](std::uint32_t triangle) {
+        const auto& v = scene.triangles[triangle].vertices;
+        return glm::cross(v[1] - v[0], v[2] - v[0]);
+    };
+    return glm::dot(normal(a), normal(b)) > 0;
 }
 
 void add_end(std::vector<std::string>& notices, const Scene& scene, const std::string& what,
@@ -39,15 +60,18 @@ std::vector<std::string> contact_notices(const Scene& scene)
     const Coincidences coincident = coincidences(scene, double_rounding, &complete);
     std::size_t pairs = 0;
     std::uint32_t first = 0;
+    std::uint32_t second = 0;
     for (std::uint32_t i = 0; i < primitive_count(scene); ++i)
         for (const std::uint32_t other : coincident.of(i)) {
-            if (other < i) continue;
-            if (pairs++ == 0) first = i;
+            if (other < i || !is_worth_a_word(scene, i, other)) continue;
+            if (pairs++ > 0) continue;
+            first = i;
+            second = other;
         }
     if (pairs > 0)
         notices.push_back(
             std::to_string(pairs) + " pair(s) of surfaces coincide, first " + describe(scene, first) +
-            " and " + describe(scene, coincident.of(first).back()) +
+            " and " + describe(scene, second) +
             ": a ray sees an emitter from its shining side before an opaque surface, and this before "
             "glass; of two of one kind the one that comes first in the file");
     if (!complete)

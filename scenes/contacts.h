@@ -76,6 +76,7 @@ Coincidences coincidences(const Scene& scene, double on = double_rounding, bool*
 int meeting_rank(const Material& material, bool from_front);
 
 /// A line for each kind of contact in the scene, for people: what touches what, and what is made of it.
+/// Two opaque surfaces that face each other, as where a body stands on the ground, are not worth one.
 std::vector<std::string> contact_notices(const Scene& scene);
 
 } // namespace scenes

@@ -1,6 +1,7 @@
-// The ends of paths that are no surfaces: the eye, point and spot lights. Judging paths from the floats' own
-// vertices does not see where the floats have put these; so their place is judged here, by the scene in
-// double precision: they begin their rays on the side of every surface on which they are, however near it.
+// The ends of paths that are no surfaces: the eye, point and spot lights. Judging paths from the floats'
+// own vertices does not see where the floats have put these; so their place is judged here, by the scene
+// in double precision: they begin their rays on the side of every surface on which they are, however
+// near it.
 
 #include "cuda/transport/scene_arrays.h"
 #include "scenes/contacts.h"
@@ -18,8 +19,8 @@ using cuda_test::Touching;
 using scenes::Vec3;
 
 /// As kernels do it (leave_end).
-Vec3 origin_of(const gpu::SceneArrays& arrays, const gpu::Vec3& position, const gpu::EndContacts& contacts,
-               const gpu::Vec3& direction)
+Vec3 origin_of(const gpu::SceneArrays& arrays, const gpu::Vec3& position,
+               const gpu::EndContacts& contacts, const gpu::Vec3& direction)
 {
     gpu::Vec3 origin = position;
     for (std::uint32_t i = 0; i < contacts.plane_count; ++i) {
@@ -58,9 +59,9 @@ void check_end(const scenes::Scene& scene, const gpu::SceneArrays& arrays, const
     for (const scenes::NearSurface& surface : scenes::surfaces_near(scene, exact, near)) {
         if (surface.primitive >= arrays.triangles.size()) continue;
         const double height = height_over(arrays.triangles[surface.primitive], origin);
-        const int side = surface.side != 0 ? surface.side
+        const int side = surface.side != 0                               ? surface.side
                          : glm::dot(Vec3(direction), surface.normal) < 0 ? -1
-                                                                        : 1;
+                                                                         : 1;
         RC_ASSERT(side * height > uncertain);
         ++looked_at;
     }
@@ -76,7 +77,8 @@ RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())
                                         Touching::point_light_in_corner, Touching::spot_light_on_wall,
                                         Touching::eye_on_wall, Touching::eye_in_edge);
     // None, or anything from far below a float's rounding to far above.
-    const double gap = *rc::gen::inRange(0, 4) == 0 ? 0 : std::pow(10, -0.1 * *rc::gen::inRange(30, 120));
+    const double gap =
+        *rc::gen::inRange(0, 4) == 0 ? 0 : std::pow(10, -0.1 * *rc::gen::inRange(30, 120));
     const scenes::Scene scene =
         cuda_test::touching_scene(kind, *rc::gen::inRange<std::uint32_t>(0, 1u << 30), gap);
     const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
@@ -112,7 +114,9 @@ TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
         const gpu::Surface& lamp = arrays.surfaces.back();
         ASSERT_GT(lamp.coincident_count, 0u);
         for (std::uint32_t i = 0; i < lamp.coincident_count; ++i)
-            EXPECT_EQ(arrays.coincident[lamp.first_coincident + i].side, gap == 0 ? 0 : gap > 0 ? -1 : 1)
+            EXPECT_EQ(arrays.coincident[lamp.first_coincident + i].side, gap == 0  ? 0
+                                                                         : gap > 0 ? -1
+                                                                                   : 1)
                 << gap;
     }
     const scenes::Scene apart = cuda_test::touching_scene(Touching::lamp_in_wall, 2, 1e-4);

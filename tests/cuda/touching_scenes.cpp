@@ -82,8 +82,9 @@ public:
     {
         const Vec3 backward = glm::normalize(turn(from - at));
         const Vec3 right = glm::normalize(glm::cross(turn(Vec3(0.1, 0.2, 1)), backward));
-        scene_.camera = scenes::Camera{place(from), right, glm::cross(backward, right), backward,
-                                       scenes::FovAxis::horizontal, any(0.9, 1.3)};
+        scene_.camera = scenes::Camera{
+            place(from),  right, glm::cross(backward, right), backward, scenes::FovAxis::horizontal,
+            any(0.9, 1.3)};
     }
     void turn_over_last_two() // triangles: their other side becomes the front
     {
@@ -165,10 +166,10 @@ scenes::Scene touching_scene(Touching kind, std::uint32_t seed, double gap)
 
 std::string name_of(Touching kind)
 {
-    constexpr std::array names = {"PointLightOnLamp", "PointLightOnWall", "PointLightInCorner",
-                                  "PointLightOnSphere", "SpotLightOnWall", "EyeOnWall",
-                                  "EyeInEdge", "LampInWall", "LampsBackToBack",
-                                  "LampUnderLamp", "GlassOnFloor"};
+    constexpr std::array names = {"PointLightOnLamp",   "PointLightOnWall", "PointLightInCorner",
+                                  "PointLightOnSphere", "SpotLightOnWall",  "EyeOnWall",
+                                  "EyeInEdge",          "LampInWall",       "LampsBackToBack",
+                                  "LampUnderLamp",      "GlassOnFloor"};
     return names[static_cast<std::size_t>(kind)];
 }
 

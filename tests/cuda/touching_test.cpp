@@ -137,7 +137,8 @@ TEST_P(TouchingScenes, AreTheSameForAllIntegratorsOnBothWingsAndInTheLimit)
         EXPECT_LT(error_of(bdpt), 0.04 * average(bdpt));
         expect_agree(path, bdpt, "path and bdpt");
         if (!has_glass)
-            expect_agree(by_ref(scene, ref::trace_light, max_edges, seed + 2000), bdpt, "light and bdpt");
+            expect_agree(by_ref(scene, ref::trace_light, max_edges, seed + 2000), bdpt,
+                         "light and bdpt");
 
         // A sample in 2^14 that goes another way in floats changes the mean by about as much.
         expect_agree_paired(by_host(scene, gpu::Integrator::path, max_edges, seed), path, 1e-4,
@@ -149,13 +150,15 @@ TEST_P(TouchingScenes, AreTheSameForAllIntegratorsOnBothWingsAndInTheLimit)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, TouchingScenes,
-    testing::Values(Touching::point_light_on_lamp, Touching::point_light_on_wall,
-                    Touching::point_light_in_corner, Touching::point_light_on_sphere,
-                    Touching::spot_light_on_wall, Touching::eye_on_wall, Touching::eye_in_edge,
-                    Touching::lamp_in_wall, Touching::lamps_back_to_back, Touching::lamp_under_lamp,
-                    Touching::glass_on_floor),
-    [](const testing::TestParamInfo<Touching>& kind) { return cuda_test::name_of(kind.param); });
+INSTANTIATE_TEST_SUITE_P(Kinds, TouchingScenes,
+                         testing::Values(Touching::point_light_on_lamp, Touching::point_light_on_wall,
+                                         Touching::point_light_in_corner,
+                                         Touching::point_light_on_sphere, Touching::spot_light_on_wall,
+                                         Touching::eye_on_wall, Touching::eye_in_edge,
+                                         Touching::lamp_in_wall, Touching::lamps_back_to_back,
+                                         Touching::lamp_under_lamp, Touching::glass_on_floor),
+                         [](const testing::TestParamInfo<Touching>& kind) {
+                             return cuda_test::name_of(kind.param);
+                         });
 
 } // namespace

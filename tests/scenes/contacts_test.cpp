@@ -193,6 +193,24 @@ TEST(MeetingRank, AnEmitterIsFirstFromItsShiningSideAndLastFromTheOther)
     EXPECT_GT(meeting_rank(emission, false), meeting_rank(glass, true));
 }
 
+TEST(ContactNotices, SayNothingOfABodyThatStandsOnTheGround)
+{
+    Scene scene;
+    scene.material_names = {"ground", "body", "glass"};
+    scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}, scenes::Lambertian{scenes::Rgb(0.2)},
+                       scenes::Glass{scenes::Rgb(1), scenes::Rgb(1), 1.5}};
+    scene.triangles.push_back({{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, 0});
+    scene.triangles.push_back({{Vec3(0.1, 0.1, 0), Vec3(0.1, 0.2, 0), Vec3(0.2, 0.1, 0)}, 1});
+    EXPECT_FALSE(scenes::coincidences(scene).empty());
+    EXPECT_TRUE(scenes::contact_notices(scene).empty());
+    std::swap(scene.triangles[1].vertices[1],
+              scene.triangles[1].vertices[2]); // faces as the ground does
+    EXPECT_EQ(scenes::contact_notices(scene).size(), 1u);
+    std::swap(scene.triangles[1].vertices[1], scene.triangles[1].vertices[2]);
+    scene.triangles[1].material = 2;
+    EXPECT_EQ(scenes::contact_notices(scene).size(), 1u);
+}
+
 TEST(ContactNotices, NameWhatTouches)
 {
     Scene scene;
