@@ -58,6 +58,16 @@ TEST(CutEars, SpikesGoFirst)
     EXPECT_EQ(area_of(shape, *triangles), 2);
 }
 
+// The outline comes back to its first corner from inside: cut off there, the ear would take the way back
+// with it.
+TEST(CutEars, ACornerThatIsVisitedTwice)
+{
+    const Shape shape = {{{1, 2}, {1, 1}, {3, 0}, {3, 3}, {2, 1}, {1, 2}, {0, 2}, {0, 0}}};
+    const auto triangles = cut_ears(tests::points_of(shape), tests::rings_of(shape)[0]);
+    ASSERT_TRUE(triangles.has_value());
+    EXPECT_EQ(area_of(shape, *triangles), tests::twice_area(shape));
+}
+
 TEST(CutEars, NothingButSpikes)
 {
     Shape shape(1);

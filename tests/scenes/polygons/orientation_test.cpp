@@ -79,6 +79,23 @@ RC_GTEST_PROP(Orientation, SeesTheLastDigit, ())
     RC_ASSERT(orientation(c.as_point(), b.as_point(), a.as_point()) == -right);
 }
 
+// The example of L. Kettner et al., "Classroom Examples of Robustness Problems in Geometric
+// Computations" (2008): differences of coordinates of different size are rounded, and the determinant
+// gets a sign that is wrong.
+TEST(Orientation, IsRightWhereDifferencesAreRounded)
+{
+    const ExactPoint q{{12, 53}, {12, 53}};
+    const ExactPoint r{{24, 53}, {24, 53}};
+    for (std::int64_t x = 0; x < 64; ++x)
+        for (std::int64_t y = 0; y < 64; ++y) {
+            const ExactPoint p{{(1LL << 52) + x, 0}, {(1LL << 52) + y, 0}};
+            ASSERT_EQ(orientation(p.as_point(), q.as_point(), r.as_point()), exactly(p, q, r))
+                << x << " " << y;
+            ASSERT_EQ(orientation(q.as_point(), r.as_point(), p.as_point()), exactly(p, q, r))
+                << x << " " << y;
+        }
+}
+
 TEST(Orientation, OfTheSmallestAndLargestCoordinates)
 {
     const double small = 0x1p-400;
