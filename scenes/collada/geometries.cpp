@@ -1,7 +1,9 @@
 #include "scenes/collada/geometries.h"
 
 #include "scenes/collada/numbers.h"
+#include "scenes/collada/polygons.h"
 #include "scenes/collada/positions.h"
+#include "scenes/polygons/cut.h"
 
 #include <string_view>
 
@@ -32,18 +34,23 @@ Vertices read_vertices(const Document& document, const Element& mesh)
     return {&vertices, read_positions(document, source)};
 }
 
-void report(const PolygonFaults& faults, const Element& geometry, std::vector<std::string>& notices)
+void report(const polygons::PolygonFaults& faults, const Element& geometry,
+            std::vector<std::string>& notices)
 {
     const auto note = [&](std::size_t count, const char* what) {
         if (count > 0) notices.push_back(place(geometry) + std::to_string(count) + what);
     };
     note(faults.too_small, " polygon(s) with fewer than three corners: dropped");
     note(faults.zero_area, " triangle(s) of zero area: kept, but they neither stop a ray nor emit");
-    note(faults.non_planar, " polygon(s) are not planar: cut into triangles around the first corner");
-    note(faults.folded, " polygon(s) are not convex: their triangles cover more than they do");
+    note(faults.non_planar,
+         " polygon(s) are not planar: cut into triangles as their projection on the mean plane");
+    note(faults.small_holes, " hole(s) with fewer than three corners: dropped");
+    note(faults.crossed,
+         " polygon(s) cross themselves or their holes: cut into triangles around the first "
+         "corner, which cover other than they do");
 }
 
-Mesh read_mesh(const Document& document, const Element& mesh, PolygonFaults& faults,
+Mesh read_mesh(const Document& document, const Element& mesh, polygons::PolygonFaults& faults,
                std::vector<std::string>& notices)
 {
     check_children(mesh,
@@ -55,11 +62,15 @@ Mesh read_mesh(const Document& document, const Element& mesh, PolygonFaults& fau
         if (kind == "lines" || kind == "linestrips")
             notices.push_back(place(*e) + "ignored: lines have no area");
         if (kind != "triangles" && kind != "polylist" && kind != "polygons") continue;
-        const Polygons polygons = read_polygons(*e, vertices.positions.size());
+        const polygons::Polygons faces = read_polygons(*e, vertices.positions.size());
         const Element& input = required_input(*e, "VERTEX");
         if (&document.target(input, "source", "vertices") != vertices.element)
             fail(input, "its source is the <vertices> of another mesh");
-        triangulate(polygons, vertices.positions, parts.emplace_back(Part{e, {}}).triangles, faults);
+        polygons::triangulate(faces, vertices.positions, parts.emplace_back(Part{e, {}}).triangles,
+                              faults);
+        if (faults.too_large > 0)
+            fail(*e, "a polygon that is not convex has more than " +
+                         std::to_string(polygons::most_corners) + " corners");
     }
     return parts;
 }
@@ -72,7 +83,7 @@ Geometry read_geometry(const Document& document, const Element& geometry,
     check_children(geometry, {"mesh"},
                    Cmu462::understood); // <convex_mesh> and <spline> are refused here
     if (const Element* technique = cmu462_technique(geometry)) return read_sphere(*technique);
-    PolygonFaults faults;
+    polygons::PolygonFaults faults;
     Mesh mesh = read_mesh(document, required_child(geometry, "mesh"), faults, notices);
     report(faults, geometry, notices);
     return mesh;

@@ -3,7 +3,7 @@
 // Geometries in their local frame: a mesh, or a sphere of the CMU462 profile.
 
 #include "scenes/collada/document.h"
-#include "scenes/collada/triangulate.h"
+#include "scenes/polygons/triangulate.h"
 
 #include <string>
 #include <unordered_map>
@@ -11,6 +11,8 @@
 #include <vector>
 
 namespace scenes::collada {
+
+using polygons::Corners;
 
 /// Triangles that share a material, named by a symbol that each instance of the geometry binds.
 struct Part {

@@ -46,6 +46,40 @@ std::uint32_t append_corners(const Element& p, const IndexLayout& layout, std::u
     return static_cast<std::uint32_t>(list.size() / layout.stride);
 }
 
+void check_count(const Element& element, std::size_t found)
+{
+    const std::uint32_t count = count_attribute(element, "count");
+    if (found != count)
+        fail(element, "count is " + std::to_string(count) + ", but it holds " + std::to_string(found) +
+                          " polygons");
+}
+
+/// <polygons>: each is a <p>, or a <ph> with its outline as <p> and its holes as <h>.
+polygons::Polygons read_each_polygon(const Element& element, std::uint64_t vertex_count)
+{
+    check_children(element, {"input", "p", "ph"});
+    const IndexLayout layout = read_layout(element);
+    polygons::Polygons faces;
+    const auto append_ring = [&](const Element& ring) {
+        faces.sizes.push_back(append_corners(ring, layout, vertex_count, faces.corners));
+        ++faces.rings.back();
+    };
+    for (const Element* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+        const std::string_view kind = e->Name();
+        if (kind != "p" && kind != "ph") continue;
+        faces.rings.push_back(0);
+        if (kind == "p") {
+            append_ring(*e);
+            continue;
+        }
+        check_children(*e, {"p", "h"});
+        append_ring(required_child(*e, "p"));
+        for (const Element* hole : children(*e, "h")) append_ring(*hole);
+    }
+    check_count(element, faces.rings.size());
+    return faces;
+}
+
 } // namespace
 
 const Element& required_input(const Element& element, const char* semantic)
@@ -60,44 +94,33 @@ const Element& required_input(const Element& element, const char* semantic)
     return *found;
 }
 
-Polygons read_polygons(const Element& element, std::uint64_t vertex_count)
+polygons::Polygons read_polygons(const Element& element, std::uint64_t vertex_count)
 {
     const std::string_view kind = element.Name();
     if (kind == "polylist")
         check_children(element, {"input", "vcount", "p"});
+    else if (kind == "triangles")
+        check_children(element, {"input", "p"});
     else
-        check_children(element, {"input", "p"}); // <ph>, a polygon with holes, is refused here
-    const std::uint32_t count = count_attribute(element, "count");
+        return read_each_polygon(element, vertex_count);
     const IndexLayout layout = read_layout(element);
+    polygons::Polygons faces;
+    if (const Element* p = optional_child(element, "p"))
+        append_corners(*p, layout, vertex_count, faces.corners);
+    const std::uint64_t corners = faces.corners.size();
 
-    Polygons polygons;
-    std::vector<std::uint32_t> sizes_of_p;
-    for (const Element* p = element.FirstChildElement("p"); p != nullptr; p = p->NextSiblingElement("p"))
-        sizes_of_p.push_back(append_corners(*p, layout, vertex_count, polygons.corners));
-    const std::uint64_t corners = polygons.corners.size();
-
-    if (kind == "polygons") {
-        polygons.sizes = std::move(sizes_of_p); // one <p> for each
+    if (kind == "polylist") {
+        if (const Element* vcount = optional_child(element, "vcount")) faces.sizes = indices(*vcount);
     } else {
-        optional_child(element, "p"); // not more than one
-        if (kind == "polylist") {
-            if (const Element* vcount = optional_child(element, "vcount"))
-                polygons.sizes = indices(*vcount);
-        } else {
-            if (corners % 3 != 0)
-                fail(element, std::to_string(corners) + " corners do not make triangles");
-            polygons.sizes.assign(corners / 3, 3);
-        }
+        if (corners % 3 != 0) fail(element, std::to_string(corners) + " corners do not make triangles");
+        faces.sizes.assign(corners / 3, 3);
     }
-    if (polygons.sizes.size() != count)
-        fail(element, "count is " + std::to_string(count) + ", but it holds " +
-                          std::to_string(polygons.sizes.size()) + " polygons");
-    if (const auto needed =
-            std::accumulate(polygons.sizes.begin(), polygons.sizes.end(), std::uint64_t{0});
+    check_count(element, faces.sizes.size());
+    if (const auto needed = std::accumulate(faces.sizes.begin(), faces.sizes.end(), std::uint64_t{0});
         needed != corners)
         fail(element, "<vcount> asks for " + std::to_string(needed) + " corners, but <p> lists " +
                           std::to_string(corners));
-    return polygons;
+    return faces;
 }
 
 } // namespace scenes::collada

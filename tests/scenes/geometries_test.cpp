@@ -1,3 +1,4 @@
+#include "scenes/polygons/triangulate.h"
 #include "tests/scenes/scene_text.h"
 
 #include <gtest/gtest.h>
@@ -136,7 +137,7 @@ std::string primitives_text(const std::string& kind, const RandomMesh& mesh)
     return text + "</" + kind + ">";
 }
 
-RC_GTEST_PROP(Geometries, WhateverTheLayoutTheTrianglesAreTheFansOfThePolygons, ())
+RC_GTEST_PROP(Geometries, WhateverTheLayoutTheTrianglesAreThoseOfThePolygons, ())
 {
     const std::string kind = *rc::gen::element<std::string>("triangles", "polylist", "polygons");
     const RandomMesh mesh = random_mesh(kind == "triangles");
@@ -148,16 +149,17 @@ RC_GTEST_PROP(Geometries, WhateverTheLayoutTheTrianglesAreTheFansOfThePolygons, 
     text.nodes = tests::node(tests::instance_geometry("g"));
     const scenes::Scene scene = text.parse();
 
-    std::size_t next = 0;
-    for (const auto& polygon : mesh.polygons)
-        for (std::size_t i = 1; i + 1 < polygon.size(); ++i, ++next) {
-            RC_ASSERT(next < scene.triangles.size());
-            const auto& v = scene.triangles[next].vertices;
-            RC_ASSERT(v[0] == mesh.positions[polygon[0]]);
-            RC_ASSERT(v[1] == mesh.positions[polygon[i]]);
-            RC_ASSERT(v[2] == mesh.positions[polygon[i + 1]]);
-        }
-    RC_ASSERT(next == scene.triangles.size());
+    scenes::polygons::Polygons polygons;
+    for (const auto& polygon : mesh.polygons) {
+        polygons.sizes.push_back(static_cast<std::uint32_t>(polygon.size()));
+        polygons.corners.insert(polygons.corners.end(), polygon.begin(), polygon.end());
+    }
+    std::vector<scenes::polygons::Corners> expected;
+    scenes::polygons::PolygonFaults faults;
+    triangulate(polygons, mesh.positions, expected, faults);
+    RC_ASSERT(scene.triangles.size() == expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        RC_ASSERT(scene.triangles[i].vertices == expected[i]);
 }
 
 /// The notices about polygons of a mesh with one polygon per <p>.
@@ -196,20 +198,26 @@ TEST(PolygonFaults, SevenDigitsAreEnoughToBePlanar)
 
 TEST(PolygonFaults, NonPlanarPolygonsAreCountedInOneNoticePerGeometry)
 {
-    EXPECT_EQ(
-        notices_of("0 0 0 1 0 0 1 1 0.01 0 1 0", 4, {"0 1 2 3", "1 2 3 0", "0 1 2"}),
-        std::vector<std::string>{
-            place_of_g + "2 polygon(s) are not planar: cut into triangles around the first corner"});
+    EXPECT_EQ(notices_of("0 0 0 1 0 0 1 1 0.01 0 1 0", 4, {"0 1 2 3", "1 2 3 0", "0 1 2"}),
+              std::vector<std::string>{
+                  place_of_g +
+                  "2 polygon(s) are not planar: cut into triangles as their projection on the "
+                  "mean plane"});
 }
 
-TEST(PolygonFaults, AConcavePolygonIsNoticedOnlyWhereItsFanLeavesIt)
+TEST(PolygonFaults, AConcavePolygonHasNoneWhicheverCornerComesFirst)
 {
     const std::string dart = "0 0 0 4 1 0 1 1 0 1 4 0"; // concave at corner 2
-    EXPECT_EQ(notices_of(dart, 4, {"2 3 0 1"}), std::vector<std::string>());
-    EXPECT_EQ(notices_of(dart, 4, {"0 1 2 3"}), std::vector<std::string>()); // corner 0 sees all of it
-    EXPECT_EQ(notices_of(dart, 4, {"1 2 3 0"}),
+    EXPECT_EQ(notices_of(dart, 4, {"2 3 0 1", "0 1 2 3", "1 2 3 0", "3 2 1 0"}),
+              std::vector<std::string>());
+}
+
+TEST(PolygonFaults, PolygonsThatCrossThemselvesAreCounted)
+{
+    EXPECT_EQ(notices_of("0 0 0 4 4 0 4 0 0 0 3 0", 4, {"0 1 2 3", "0 2 1 3"}),
               std::vector<std::string>{
-                  place_of_g + "1 polygon(s) are not convex: their triangles cover more than they do"});
+                  place_of_g + "1 polygon(s) cross themselves or their holes: cut into triangles "
+                               "around the first corner, which cover other than they do"});
 }
 
 TEST(PolygonFaults, ZeroAreaTrianglesAreKeptAndSmallerPolygonsDropped)
@@ -221,6 +229,47 @@ TEST(PolygonFaults, ZeroAreaTrianglesAreKeptAndSmallerPolygonsDropped)
     EXPECT_EQ(
         notices_of("0 0 0 1 0 0 2 0 0 0 1 0", 4, {"0 1", "0", "", "0 1 3"}),
         std::vector<std::string>{place_of_g + "3 polygon(s) with fewer than three corners: dropped"});
+}
+
+// A square of area 9 x 9 with a triangular hole of half of 2 x 2, between two other polygons.
+const std::string with_hole_positions = "0 0 0 9 0 0 9 9 0 0 9 0 2 2 0 4 2 0 2 4 0";
+
+scenes::Scene with_hole(const std::string& ph)
+{
+    tests::SceneText text;
+    text.geometries = tests::mesh("g", with_hole_positions, 7,
+                                  "<polygons material=\"m\" count=\"3\"><input semantic=\"VERTEX\" "
+                                  "source=\"#g-v\" offset=\"0\"/><p>0 1 4</p>" +
+                                      ph + "<p>3 2 1</p></polygons>");
+    text.nodes = tests::node(tests::instance_geometry("g"));
+    return text.parse();
+}
+
+TEST(Geometries, HolesStayOpen)
+{
+    for (const std::string hole : {"4 5 6", "6 5 4"}) { // whichever way it turns
+        const scenes::Scene scene = with_hole("<ph><p>0 1 2 3</p><h>" + hole + "</h></ph>");
+        ASSERT_EQ(scene.triangles.size(), 1 + 7 + 1);
+        EXPECT_EQ(scene.triangles[0].vertices[2], Vec3(2, 2, 0));
+        EXPECT_EQ(scene.triangles[8].vertices[0], Vec3(0, 9, 0)); // polygons keep their order
+        double area = 0;
+        for (std::size_t i = 1; i < 8; ++i) {
+            const auto& v = scene.triangles[i].vertices;
+            const double one =
+                (v[1].x - v[0].x) * (v[2].y - v[0].y) - (v[1].y - v[0].y) * (v[2].x - v[0].x);
+            EXPECT_GE(one, 0);
+            area += one / 2;
+        }
+        EXPECT_EQ(area, 81 - 2);
+    }
+}
+
+TEST(Geometries, APhWithoutItsOutlineIsAnError)
+{
+    EXPECT_THROW(with_hole("<ph><h>4 5 6</h></ph>"), scenes::SceneError);
+    EXPECT_THROW(with_hole("<ph><p>0 1 2 3</p><p>4 5 6</p></ph>"), scenes::SceneError);
+    EXPECT_THROW(with_hole("<ph><p>0 1 2 3</p><h>4 5 7</h></ph>"), scenes::SceneError);
+    EXPECT_THROW(with_hole("<ph><p>0 1 2 3</p><hole>4 5 6</hole></ph>"), scenes::SceneError);
 }
 
 TEST(Geometries, LinesAreIgnoredWithANotice)
