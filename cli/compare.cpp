@@ -5,6 +5,7 @@
 #include "cli/interrupt.h"
 #include "cli/scene_input.h"
 #include "golden/atomic_file.h"
+#include "golden/reason.h"
 #include "golden/report.h"
 
 #include <algorithm>
@@ -41,9 +42,9 @@ void print_screen(const golden::Comparison& comparison)
                     static_cast<unsigned long long>(stage.batches), stage.p, stage.level);
     std::printf("conclusive  %.1f%% of %zu tests\n", 100.0 * comparison.coverage,
                 comparison.findings.size());
-    if (comparison.noise_ratio)
-        std::printf("noise       %.2f times what its samples were assumed to have\n",
-                    *comparison.noise_ratio);
+    if (comparison.noise_ratio) std::printf("noise       %s\n", say_noise(comparison).c_str());
+    if (const std::string limit = say_golden_limit(comparison); !limit.empty())
+        std::printf("golden      %s\n", limit.c_str());
     std::printf("\nwhole picture  candidate/golden     99%% interval         would have seen\n");
     for (std::size_t c = 0; c < golden::channel_count; ++c) {
         const golden::Finding& whole = whole_picture(comparison, c);
