@@ -60,7 +60,11 @@ std::vector<RegionKind> Multiplicity::kinds() const
 Judge::Judge(const Golden& golden, Method method, const CompareOptions& options)
     : golden_(golden), functionals_(golden.functionals), method_(method), options_(options),
       multiplicity_(functionals_, method)
-{}
+{
+    for (const Rgb& pixel : golden.mean.pixels)
+        brightness_ +=
+            (pixel.r + pixel.g + pixel.b) / (3.0 * static_cast<double>(golden.mean.pixels.size()));
+}
 
 bool Judge::looks_at(std::size_t functional) const
 {
@@ -140,7 +144,7 @@ void Judge::compare_means(Finding& finding, const MeanEstimate& candidate, const
     const double golden_skewed = std::abs(reference.skewness) / std::sqrt(reference.count);
     finding.conclusive = std::max(skewed, golden_skewed) <= options_.skewness;
     const MeanEstimate expected = mean_estimate(reference);
-    finding.test = welch(candidate, expected, options_.rounding * std::abs(expected.mean));
+    finding.test = welch(candidate, expected, options_.rounding * size_of(finding, expected.mean));
     if (finding.conclusive && expected.mean > 0.0)
         finding.detectable = detectable_difference(std::sqrt(candidate.variance + expected.variance),
                                                    welch_degrees(candidate, expected), level_of(finding),
@@ -148,6 +152,14 @@ void Judge::compare_means(Finding& finding, const MeanEstimate& candidate, const
                              expected.mean;
     if (expected.mean > 0.0 && finding.region.kind == RegionKind::whole)
         finding.reach = reach_of(finding, candidate, expected, skewed, golden_skewed);
+}
+
+double Judge::size_of(const Finding& finding, double mean) const
+{
+    if (mean != 0.0) return std::abs(mean);
+    // Black, where the functional is a plain sum: rounding there is that of colours as bright as the
+    // picture, which a conversion between colour spaces leaves behind.
+    return brightness_ * static_cast<double>(finding.region.pixels);
 }
 
 Reach Judge::reach_of(const Finding& finding, const MeanEstimate& candidate,

@@ -108,6 +108,8 @@ private:
     [[nodiscard]] double level_of(const Finding& finding) const;
     void compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
                        double skewed) const;
+    /// Of what a functional of this mean adds up, for a relative tolerance.
+    [[nodiscard]] double size_of(const Finding& finding, double mean) const;
     [[nodiscard]] Reach reach_of(const Finding& finding, const MeanEstimate& candidate,
                                  const MeanEstimate& expected, double skewed,
                                  double golden_skewed) const;
@@ -118,6 +120,7 @@ private:
     Method method_;
     const CompareOptions& options_;
     Multiplicity multiplicity_;
+    double brightness_ = 0.0; // the golden's mean, over pixels and channels
 };
 
 /// One functional of several batches, in its own units.

@@ -18,7 +18,7 @@ public:
     {
         for (std::size_t c = 0; c < channel_count; ++c) {
             for (std::size_t i = 0; i < pixels(); ++i)
-                brightness_[c] += expected(i, c) / static_cast<double>(pixels());
+                brightness_ += expected(i, c) / static_cast<double>(channel_count * pixels());
             noise_[c] = noise_of(c);
         }
     }
@@ -36,7 +36,8 @@ public:
     {
         return golden_.standard_error.pixels[i][static_cast<int>(c)];
     }
-    [[nodiscard]] double brightness(std::size_t c) const { return brightness_[c]; }
+    /// The golden's mean, over pixels and channels.
+    [[nodiscard]] double brightness() const { return brightness_; }
 
     /// Of one batch of the golden; at least what may have been missed, as in functionals.cpp.
     [[nodiscard]] double batch_variance_of(std::size_t i, std::size_t c) const
@@ -51,7 +52,7 @@ public:
     /// matter.
     [[nodiscard]] double deviations(std::size_t i, std::size_t c) const
     {
-        const double floor = 1e-4 * brightness_[c]; // no picture is compared more closely
+        const double floor = 1e-4 * brightness_; // no picture is compared more closely
         const double deviation = std::sqrt(noise_[c] * batch_variance_of(i, c) + floor * floor);
         return deviation > 0.0 ? (value(i, c) - expected(i, c)) / deviation : 0.0;
     }
@@ -74,7 +75,8 @@ private:
     const Golden& golden_;
     const Image& picture_;
     double batches_;
-    std::array<double, channel_count> brightness_{}, noise_{};
+    double brightness_ = 0.0;
+    std::array<double, channel_count> noise_{};
 };
 
 /// Gathers pixels of one kind and remembers the worst.
@@ -214,14 +216,14 @@ std::vector<OddPixels> odd_pixels(const Golden& golden, const Image& picture, do
             const double expected = look.expected(i, c);
             golden_negative = golden_negative || expected < 0.0;
             // Conversions of colour round.
-            if (value < -1e-5 * std::max(0.0, look.brightness(c))) {
+            if (value < -1e-5 * std::max(0.0, look.brightness())) {
                 negative.add(i, c, -value);
                 continue;
             }
             const double deviations = look.deviations(i, c);
             const double at_least = expected - golden_errors * look.golden_error(i, c);
-            if (values * chance_of_darkness(value, at_least, more_noise * look.batch_variance_of(i, c),
-                                            batches) <
+            if (values * chance_of_darkness(std::max(0.0, value), at_least,
+                                            more_noise * look.batch_variance_of(i, c), batches) <
                 level)
                 dead.add(i, c, -deviations);
             else if (deviations < -far)
