@@ -117,8 +117,10 @@ void add_compare_command(CLI::App& program, Work& work)
         ->expected(2, 1 << 16);
     command
         ->add_option("-s,--samples", options->candidate.samples,
-                     "Samples per pixel of the one picture, if it does not say so itself")
+                     "Samples per pixel: of one picture that does not say so, or to render")
         ->check(CLI::Range(1.0, 1e12));
+    command->add_option("--layer", options->candidate.layer,
+                        "Of .exr files: the picture to compare, by name [their R, G and B]");
     command
         ->add_option("--integrator", options->candidate.integrator,
                      "Of a scene that is rendered here: path, bdpt or light [the golden's]")
