@@ -80,7 +80,8 @@ struct Comparison {
     double false_alarm = 0.0; // at most this chance has a right picture to FAIL
     double coverage = 1.0;    // share of the findings that are conclusive
     /// Method::picture: the variance of the picture's own noise over the one assumed, in the whole
-    /// picture, in the channel where it is largest; and the standard error of this ratio.
+    /// picture but its odd pixels, in the channel where it is largest; and the standard error of this
+    /// ratio.
     std::optional<double> noise_ratio, noise_error;
     std::uint64_t golden_batches = 0; // those that the candidate was compared with
     double candidate_batches = 0.0;   // of its first stage; pictures, with Method::welch

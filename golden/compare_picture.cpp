@@ -73,6 +73,21 @@ void expect_independent(const Scatter& whole)
         throw std::invalid_argument("has the golden's own noise: it is not independent of the golden");
 }
 
+/// The noise of the whole picture, in the channel where it exceeds most what its samples let expect.
+void measure_noise(Comparison& comparison, const Golden& golden, const Image& picture)
+{
+    constexpr std::size_t whole = 0; // matched
+    for (std::size_t c = 0; c < channel_count; ++c) {
+        const Scatter shown = scatter(golden, picture, whole, c);
+        if (!(shown.expected > 0.0)) continue;
+        expect_independent(shown);
+        const double assumed = shown.expected / comparison.candidate_batches;
+        if (comparison.noise_ratio && shown.variance / assumed <= *comparison.noise_ratio) continue;
+        comparison.noise_ratio = shown.variance / assumed;
+        comparison.noise_error = shown.error / assumed;
+    }
+}
+
 /// Findings and what follows from them.
 Comparison look_at_picture(const Golden& golden, const Image& picture, double batches,
                            const CompareOptions& options)
@@ -93,15 +108,6 @@ Comparison look_at_picture(const Golden& golden, const Image& picture, double ba
                                   reference.count - 1.0};
             double skewed = std::abs(reference.skewness) / std::sqrt(batches);
             const Scatter shown = scatter(golden, picture, f, c);
-            const Functional functional = functionals.at(f);
-            if (functional.region == 0 && functional.weight == Weight::matched && shown.expected > 0.0) {
-                expect_independent(shown);
-                const double assumed = shown.expected / batches;
-                if (!comparison.noise_ratio || shown.variance / assumed > *comparison.noise_ratio) {
-                    comparison.noise_ratio = shown.variance / assumed;
-                    comparison.noise_error = shown.error / assumed;
-                }
-            }
             if (shown.variance > estimate.variance) {
                 estimate.variance = shown.variance;
                 // Of a variance that is what is left of a larger one, S, when a known part is taken off,
@@ -141,6 +147,7 @@ Comparison compare_picture(const Golden& golden, const Image& picture, double sa
     const double batches = samples / batch_size;
     Comparison comparison = look_at_picture(golden, picture, batches, options);
     comparison.odd = odd_pixels(golden, picture, batches, options.dark);
+    measure_noise(comparison, golden, replaced(picture, pixels_of(comparison.odd), golden.mean));
     decide(comparison, options);
     const auto bright = bright_pixels(comparison.odd);
     if (comparison.verdict != Verdict::inconclusive || bright.empty()) return comparison;

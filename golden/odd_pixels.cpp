@@ -140,6 +140,74 @@ std::vector<std::size_t> cut_off(const Look& look, std::size_t c)
     return most;
 }
 
+/// Puts each value of a picture to its kind.
+class Sorter {
+public:
+    Sorter(const Look& look, int width, double batches, double level)
+        : look_(look), batches_(batches), level_(level), negative_(Oddity::negative, look, width),
+          clipped_(Oddity::clipped, look, width), dead_(Oddity::dark, look, width),
+          dark_(Oddity::dark, look, width), bright_(Oddity::bright, look, width)
+    {}
+
+    void sort(std::size_t c)
+    {
+        std::vector<bool> cut(look_.pixels());
+        for (const std::size_t i : cut_off(look_, c)) {
+            cut[i] = true;
+            clipped_.add(i, c, look_.expected(i, c) - look_.value(i, c));
+        }
+        for (std::size_t i = 0; i < look_.pixels(); ++i) {
+            golden_negative_ = golden_negative_ || look_.expected(i, c) < 0.0;
+            const double value = look_.value(i, c);
+            const double deviations = look_.deviations(i, c);
+            constexpr double rounding = 1e-5; // of conversions between colour spaces
+            constexpr double far = 30.0;      // standard deviations
+            if (value < -rounding * std::max(0.0, look_.brightness()))
+                negative_.add(i, c, -value);
+            else if (cut[i])
+                continue;
+            else if (is_dead(i, c))
+                dead_.add(i, c, -deviations);
+            else if (deviations < -far)
+                dark_.add(i, c, -deviations);
+            else if (deviations > far)
+                bright_.add(i, c, deviations);
+        }
+    }
+
+    [[nodiscard]] std::vector<OddPixels> found()
+    {
+        const std::size_t all = look_.pixels();
+        const std::size_t few = std::max<std::size_t>(1, all / 500);
+        std::vector<OddPixels> found;
+        negative_.give(found, !golden_negative_, all);
+        clipped_.give(found, true, all);
+        dead_.give(found, true, few);
+        dark_.give(found, false, few);
+        bright_.give(found, false, few);
+        return found;
+    }
+
+private:
+    /// Whether a right picture has such a dark value with a chance below the level, all values together:
+    /// even if its noise is ten times that of the golden in this very pixel, as another estimator's may
+    /// be, and the golden is too bright by eight of its standard errors.
+    [[nodiscard]] bool is_dead(std::size_t i, std::size_t c) const
+    {
+        constexpr double more_noise = 10.0;
+        constexpr double golden_errors = 8.0;
+        const double at_least = look_.expected(i, c) - golden_errors * look_.golden_error(i, c);
+        const double chance = chance_of_darkness(std::max(0.0, look_.value(i, c)), at_least,
+                                                 more_noise * look_.batch_variance_of(i, c), batches_);
+        return static_cast<double>(channel_count * look_.pixels()) * chance < level_;
+    }
+
+    const Look& look_;
+    double batches_, level_;
+    Gatherer negative_, clipped_, dead_, dark_, bright_;
+    bool golden_negative_ = false;
+};
+
 std::string say_short(double number)
 {
     std::ostringstream text;
@@ -196,51 +264,17 @@ std::vector<OddPixels> odd_pixels(const Golden& golden, const Image& picture, do
                                   double level)
 {
     const Look look(golden, picture);
-    const std::size_t few = std::max<std::size_t>(1, look.pixels() / 500);
-    constexpr double far = 30.0; // standard deviations
-    // Of noise that is ten times that of the golden in this very pixel, as another estimator's may be;
-    // and the golden may be too bright by eight of its standard errors.
-    constexpr double more_noise = 10.0;
-    constexpr double golden_errors = 8.0;
-    const auto values = static_cast<double>(channel_count * look.pixels());
+    Sorter sorter(look, picture.width, batches, level);
+    for (std::size_t c = 0; c < channel_count; ++c) sorter.sort(c);
+    return sorter.found();
+}
 
-    Gatherer negative(Oddity::negative, look, picture.width);
-    Gatherer clipped(Oddity::clipped, look, picture.width);
-    Gatherer dead(Oddity::dark, look, picture.width);
-    Gatherer dark(Oddity::dark, look, picture.width);
-    Gatherer bright(Oddity::bright, look, picture.width);
-    bool golden_negative = false;
-    for (std::size_t c = 0; c < channel_count; ++c) {
-        for (std::size_t i = 0; i < look.pixels(); ++i) {
-            const double value = look.value(i, c);
-            const double expected = look.expected(i, c);
-            golden_negative = golden_negative || expected < 0.0;
-            // Conversions of colour round.
-            if (value < -1e-5 * std::max(0.0, look.brightness())) {
-                negative.add(i, c, -value);
-                continue;
-            }
-            const double deviations = look.deviations(i, c);
-            const double at_least = expected - golden_errors * look.golden_error(i, c);
-            if (values * chance_of_darkness(std::max(0.0, value), at_least,
-                                            more_noise * look.batch_variance_of(i, c), batches) <
-                level)
-                dead.add(i, c, -deviations);
-            else if (deviations < -far)
-                dark.add(i, c, -deviations);
-            else if (deviations > far)
-                bright.add(i, c, deviations);
-        }
-        for (const std::size_t i : cut_off(look, c))
-            clipped.add(i, c, look.expected(i, c) - look.value(i, c));
-    }
-    std::vector<OddPixels> found;
-    negative.give(found, !golden_negative, look.pixels());
-    clipped.give(found, true, look.pixels());
-    dead.give(found, true, few);
-    dark.give(found, false, few);
-    bright.give(found, false, few);
-    return found;
+std::vector<std::size_t> pixels_of(const std::vector<OddPixels>& odd)
+{
+    std::vector<std::size_t> pixels;
+    for (const OddPixels& found : odd)
+        pixels.insert(pixels.end(), found.pixels.begin(), found.pixels.end());
+    return pixels;
 }
 
 std::vector<std::size_t> bright_pixels(const std::vector<OddPixels>& odd)

@@ -47,7 +47,8 @@ std::string describe(const OddPixels& odd);
 std::vector<OddPixels> odd_pixels(const Golden& golden, const Image& picture, double batches,
                                   double level);
 
-/// The numbers of the pixels that are listed as bright.
+/// The numbers of all pixels that are listed, and of those that are listed as bright.
+std::vector<std::size_t> pixels_of(const std::vector<OddPixels>& odd);
 std::vector<std::size_t> bright_pixels(const std::vector<OddPixels>& odd);
 
 /// `picture` with some pixels, by their numbers, taken from `other` of the same size.

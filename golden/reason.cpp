@@ -32,7 +32,7 @@ std::string say_fixed(double number)
     return text.data();
 }
 
-/// Whether most fine tiles differ from the golden by one and the same factor.
+/// Whether most fine tiles differ from the golden, and by one and the same factor.
 bool is_scaled(const Comparison& comparison, const Finding& whole)
 {
     double tiles = 0.0;
@@ -42,8 +42,9 @@ bool is_scaled(const Comparison& comparison, const Finding& whole)
             finding.channel != whole.channel || std::isnan(finding.ratio))
             continue;
         tiles += 1.0;
-        alike +=
-            finding.interval.low <= whole.interval.high && finding.interval.high >= whole.interval.low;
+        const bool differs = finding.interval.low > 1.0 || finding.interval.high < 1.0;
+        alike += differs && finding.interval.low <= whole.interval.high &&
+                 finding.interval.high >= whole.interval.low;
     }
     return tiles >= 4.0 && alike >= 0.9 * tiles;
 }
@@ -119,7 +120,8 @@ std::string say_shortfall(const Comparison& comparison)
 std::string say_noise(const Comparison& comparison)
 {
     return say_fixed(*comparison.noise_ratio) + " +- " + say_fixed(*comparison.noise_error) +
-           " times what its samples were assumed to have";
+           " times what its samples were assumed to have" +
+           (comparison.odd.empty() ? "" : ", the pixels named above left out");
 }
 
 std::string say_golden_limit(const Comparison& comparison)
@@ -159,7 +161,8 @@ std::string say_possible_causes(const Comparison& comparison, const Golden& gold
         text += " The golden's paths have at most " + edges->second +
                 " edges, the camera's counted: a picture that is brighter nearly everywhere may have "
                 "longer ones.";
-    if ((whole.interval.low > 1.0 || whole.interval.high < 1.0) && is_scaled(comparison, whole))
+    constexpr double black = 0.01;
+    if (whole.ratio > black && is_scaled(comparison, whole))
         text += " It differs by nearly the same factor everywhere, as by another exposure or unit.";
     return text;
 }

@@ -169,22 +169,18 @@ bool decide_at_once(Comparison& comparison, const CompareOptions& options)
 void decide_without(Comparison& comparison, const Comparison& without, const CompareOptions& options)
 {
     comparison.false_alarm += options.convict;
-    std::size_t pixels = 0;
-    for (const OddPixels& odd : comparison.odd) pixels += odd.pixels.size();
-    const std::string them = pixels == 1 ? "it" : "them";
+    const std::string them = bright_pixels(comparison.odd).size() == 1 ? "it" : "them";
     // Without its bright pixels a picture is darker than it was: that proves nothing. Brighter does.
     if (without.p < options.convict && without.findings[*without.suspicion].test.z > 0.0) {
         comparison.verdict = Verdict::fail;
         give_reason(comparison, "Without " + them + ", " + say_suspicion(without) + ", beyond doubt.");
         return;
     }
-    std::string text = "Without " + them + ": " + without.reason;
-    if (without.verdict == Verdict::fail) // too dark
-        text = "Without " + them + ", " + say_suspicion(without) +
-               ", and light that a right picture may "
-               "owe to such pixels is missing.";
-    comparison.verdict = Verdict::inconclusive;
-    give_reason(comparison, text +
+    const bool blind = std::any_of(comparison.detectable.begin(), comparison.detectable.end(),
+                                   [](double error) { return std::isinf(error); });
+    const bool only_they_hinder = without.verdict == Verdict::pass;
+    if (!only_they_hinder && (!blind || without.p < options.accuse)) return;
+    give_reason(comparison, "Without " + them + ": " + without.reason +
                                 " Another picture, with another seed, shows which it is: a rare bright "
                                 "sample moves, a defect stays where it is.");
 }

@@ -25,9 +25,9 @@ void convict(Comparison& comparison, const std::string& how);
 /// The verdict of the first stage if it is already certain; false if the suspicion needs another look.
 bool decide_at_once(Comparison& comparison, const CompareOptions& options);
 
-/// The verdict on a picture that was inconclusive and has a few pixels far brighter than the golden's,
-/// by the comparison `without` them: FAIL if that is too bright all the same, else INCONCLUSIVE with
-/// what it says.
+/// Decides on a picture that was inconclusive and has a few pixels far brighter than the golden's, by
+/// the comparison `without` them: FAIL if that is too bright all the same. Else it stays INCONCLUSIVE,
+/// and the reason says what is found without them if they were what hindered.
 void decide_without(Comparison& comparison, const Comparison& without, const CompareOptions& options);
 
 } // namespace golden

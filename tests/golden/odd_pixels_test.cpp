@@ -139,6 +139,14 @@ TEST_F(OddPixel, ThatIsFarTooBrightIsNamedAndTheRestJudgedWithoutIt)
          {"of pixel (25, 3) is 200, in the golden 0.", "Without it: No difference found; an error of",
           "would have been", "Another picture, with another seed"})
         EXPECT_NE(result.reason.find(part), std::string::npos) << result.reason;
+    // Of few samples it is not what hinders, and the reason says what does.
+    Image few = picture(4, 7);
+    few.at(25, 3) = Rgb(20.0);
+    const Comparison inconclusive =
+        golden::compare_picture(reference(), few, 16.0, for_small_pictures());
+    EXPECT_EQ(inconclusive.verdict, Verdict::inconclusive);
+    EXPECT_NE(inconclusive.reason.find("samples per pixel are needed instead of 16."), std::string::npos)
+        << inconclusive.reason;
     // What is too bright without it fails; what is too dark may lack the light of such pixels.
     Image bright = picture(batches, 7, {.everywhere = 1.2});
     bright.at(25, 3) = Rgb(200.0);

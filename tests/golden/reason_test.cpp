@@ -46,6 +46,7 @@ TEST_F(Reason, OfTheSameFactorEverywhereMayBeTheExposure)
 {
     const std::string exposure = "the same factor everywhere";
     EXPECT_NE(causes(picture(256, 7, {.everywhere = 0.5})).find(exposure), std::string::npos);
+    EXPECT_EQ(causes(picture(256, 7, {.everywhere = 0.0})).find(exposure), std::string::npos);
     EXPECT_EQ(causes(picture(256, 7, {.in_caustic = 0.5, .in_shadow = 2.0})).find(exposure),
               std::string::npos);
 }
