@@ -111,9 +111,10 @@ Comparison look_at_picture(const Golden& golden, const Image& picture, double ba
             if (shown.variance > estimate.variance) {
                 estimate.variance = shown.variance;
                 // Of a variance that is what is left of a larger one, S, when a known part is taken off,
-                // the relative error is larger by S over what is left.
+                // the relative error is larger by S over what is left. Fewer than one degree would
+                // lead to quantiles beyond all numbers.
                 const double share = shown.variance / (shown.variance + shown.golden);
-                estimate.degrees = (shown.blocks - 1.0) * share * share;
+                estimate.degrees = std::max(1.0, (shown.blocks - 1.0) * share * share);
                 skewed = std::max(skewed, std::abs(shown.blocks_skewness) / std::sqrt(shown.blocks));
             }
             comparison.findings.push_back(judge.judge(estimate, skewed, f, c));

@@ -13,7 +13,7 @@ constexpr double nearly_all = 0.9;        // of the sites that tell something
 constexpr double negligible = 1e-9;       // chance, all comparisons together
 constexpr std::size_t most_before = 256;  // pictures that each is compared with
 constexpr std::size_t third_pictures = 4; // that each pair is compared with
-constexpr double times_closer = 10.0;     // than two independent pictures are
+constexpr double times_closer = 3.0;      // than two independent pictures may be
 constexpr double times_closer_than_golden = 1e4;
 
 double sum_of(const Rgb& pixel)

@@ -24,7 +24,7 @@ struct SharedNoise {
 ///
 /// - they are equal in all pixels, or by a thousandth of the golden's noise in all those that have noise
 ///   (each with every other: such pictures do not show what their noise is);
-/// - there are three or more, and beside a third picture the two differ ten times less, in nine tenths
+/// - there are three or more, and beside a third picture the two differ three times less, in nine tenths
 ///   of the pixels. Of three independent pictures that are equally good, whatever their noise, any two
 ///   are the closest in a pixel with a chance of 1/3;
 /// - there are two, and they differ from each other ten thousand times less than from the golden.

@@ -70,6 +70,20 @@ TEST_F(Independence, OfTwoAmongManyIsSaidWhereverTheyAre)
         }
 }
 
+TEST_F(Independence, OfNearlyTheSameNoiseIsSaidAndOfHalfOfItIsNot)
+{
+    const auto mixed = [&](double share) {
+        std::vector<Image> pictures = independent(4);
+        const Image other = picture(16, 99);
+        for (std::size_t i = 0; i < other.pixels.size(); ++i)
+            pictures[2].pixels[i] =
+                pictures[0].pixels[i] + share * (other.pixels[i] - reference().mean.pixels[i]);
+        return shared_noise(reference(), pictures);
+    };
+    EXPECT_TRUE(mixed(0.03)); // a correlation of 0.9995
+    EXPECT_FALSE(mixed(1.0)); // of 0.7
+}
+
 TEST_F(Independence, IsNotDeniedToIndependentPicturesWhateverTheirNoise)
 {
     for (const Noise noise : calibration::noises) {
