@@ -1,18 +1,20 @@
 #include "cli/candidate.h"
 
-#include "cli/fast_render.h"
-#include "cli/golden.h"
-#include "cli/interrupt.h"
-#include "cli/progress.h"
-#include "cuda/transport/renderer.h"
+#include "cli/render_options.h"
+#include "cli/scene_candidate.h"
 #include "golden/file_ending.h"
 #include "golden/image_error.h"
+#include "golden/independence.h"
+#include "golden/non_finite.h"
 #include "golden/pfm.h"
+#include "golden/reason.h"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <random>
+#include <map>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace cli {
@@ -21,18 +23,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-golden::ExrPicture read_picture(const fs::path& path)
+constexpr std::string_view batch_prefix = "batch."; // of the layers that render --keep-batches writes
+
+golden::ExrPicture read_picture(const fs::path& path, const std::string& layer)
 {
     golden::ExrPicture picture;
     if (golden::has_ending(path, ".exr"))
-        picture = golden::read_exr(path);
+        picture = golden::read_exr(path, layer);
+    else if (golden::has_ending(path, ".pfm") && !layer.empty())
+        throw golden::ImageError(path, "has no layers (--layer " + layer + ")");
     else if (golden::has_ending(path, ".pfm"))
         picture.mean = golden::read_pfm(path);
     else
         throw golden::ImageError(path, "is no .exr, .pfm or .dae");
-    if (const auto pixel = golden::first_non_finite(picture.mean))
-        throw golden::ImageError(path, "pixel (" + std::to_string(pixel->x) + ", " +
-                                           std::to_string(pixel->y) + ") is no finite number");
+    if (const auto fault = golden::say_non_finite(picture.mean)) throw golden::ImageError(path, *fault);
     return picture;
 }
 
@@ -43,63 +47,6 @@ void expect_size(const fs::path& path, const golden::Image& image, const golden:
                                            std::to_string(image.height) + " pixels, the golden " +
                                            std::to_string(golden.mean.width) + "x" +
                                            std::to_string(golden.mean.height));
-}
-
-/// Whether batches of the two are distributed alike if both are right.
-bool same_estimator(const golden::Metadata& a, const golden::Metadata& b)
-{
-    for (const char* key : {"integrator", "heuristic", "batch_size", "max_edges", "roulette"})
-        if (value_of(a, key).empty() || value_of(a, key) != value_of(b, key)) return false;
-    return true;
-}
-
-Judged judge_scene(const golden::Golden& golden, const std::string& file,
-                   const CandidateOptions& options)
-{
-    RenderCommand command = render_of(golden, file);
-    if (!options.integrator.empty()) command.integrator = options.integrator;
-    command.threads = options.threads;
-    command.device = options.device;
-    const std::uint64_t seed = options.seed.value_or(std::random_device()());
-    const scenes::Scene scene = load_scene(file, command.frame, options.quiet);
-    command.seed = seed;
-    golden::Metadata metadata = describe(command, scene);
-    const golden::Method method =
-        same_estimator(metadata, golden.metadata) ? golden::Method::ranks : golden::Method::welch;
-    golden::check_comparable(golden, metadata, method);
-    const Size size = parse_size(command.size);
-    std::optional<ref::World> world;
-    if (command.device == "ref") world.emplace(scene, size.width, size.height);
-    golden::Image mean;
-    const auto render = [&](std::size_t stage, std::uint64_t batches, golden::Candidate& candidate) {
-        command.seed = seed + stage;
-        command.samples = batches * command.batch_size;
-        Progress progress(scene.name + ", stage " + std::to_string(stage + 1), 0.0,
-                          static_cast<double>(batches), options.quiet);
-        const ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
-        const auto fast = world ? nullptr : fast_renderer(command, scene);
-        for (std::uint64_t i = 0; i < batches; ++i) {
-            const auto batch = fast ? render_batch(*fast, command, i, monitor)
-                                    : ref::render_batch(*world, integrator_of(command),
-                                                        render_options(command), i, monitor);
-            if (!batch) throw Interrupted();
-            candidate.add_batch(*batch);
-        }
-        mean = candidate.film().mean();
-        metadata["samples"] = std::to_string(command.samples);
-    };
-    golden::Comparison comparison = golden::compare(golden, render, method);
-    return {std::move(comparison), std::move(mean), std::move(metadata), {}};
-}
-
-Judged judge_batches(const golden::Golden& golden, const std::vector<golden::Image>& batches,
-                     golden::Method method, golden::ExrPicture first)
-{
-    golden::Candidate candidate(golden.functionals);
-    for (const golden::Image& batch : batches) candidate.add_batch(batch);
-    golden::Comparison comparison = golden::compare(golden, candidate, method);
-    return {std::move(comparison), candidate.film().mean(), std::move(first.metadata),
-            std::move(first.layers)};
 }
 
 double samples_of(const std::string& file, const golden::Metadata& metadata,
@@ -114,6 +61,102 @@ double samples_of(const std::string& file, const golden::Metadata& metadata,
     return samples;
 }
 
+/// golden::check_comparable, with an error that names the file.
+void check_file(const golden::Golden& golden, const std::string& file, const golden::Metadata& metadata,
+                golden::Method method)
+{
+    try {
+        golden::check_comparable(golden, metadata, method);
+    } catch (const std::invalid_argument& error) {
+        throw golden::ImageError(file, error.what());
+    }
+}
+
+/// Throws if two of the pictures, which are called `names`, share their noise.
+void expect_independent_pictures(const golden::Golden& golden,
+                                 const std::vector<golden::Image>& pictures,
+                                 const std::vector<std::string>& names)
+{
+    if (const auto shared = golden::shared_noise(golden, pictures))
+        throw std::invalid_argument(names[shared->first] + " and " + names[shared->second] + " " +
+                                    shared->why +
+                                    ": they are not independent. Does the renderer ignore "
+                                    "its seed? Give one of them, and its samples by -s");
+}
+
+/// The batches of one file, as layers.
+Judged judge_batches(const golden::Golden& golden, const std::string& file, golden::ExrPicture picture)
+{
+    golden::Candidate candidate(golden.functionals);
+    std::vector<golden::Image> batches;
+    std::vector<std::string> names;
+    for (const auto& [name, layer] : picture.layers) {
+        if (!name.starts_with(batch_prefix)) continue;
+        if (const auto fault = golden::say_non_finite(layer))
+            throw golden::ImageError(file, "layer " + name + ": " + *fault);
+        batches.push_back(layer);
+        names.push_back(names.empty() ? file + ": layers " + name : name);
+        candidate.add_batch(layer);
+    }
+    const golden::Method method = same_estimator(picture.metadata, golden.metadata)
+                                      ? golden::Method::ranks
+                                      : golden::Method::welch;
+    check_file(golden, file, picture.metadata, method);
+    expect_independent_pictures(golden, batches, names);
+    golden::Comparison comparison = method == golden::Method::ranks
+                                        ? golden::compare(golden, candidate, method)
+                                        : golden::compare_pictures(golden, batches);
+    return {std::move(comparison), candidate.film().mean(), std::move(picture.metadata),
+            std::move(picture.layers)};
+}
+
+/// Several pictures, `first` the first of them.
+Judged judge_pictures(const golden::Golden& golden, const std::vector<std::string>& files,
+                      golden::ExrPicture first, const std::string& layer)
+{
+    std::vector<golden::Image> pictures = {first.mean};
+    std::map<std::string, std::string> seeds; // and the file that has it
+    golden::Metadata metadata = first.metadata;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        golden::ExrPicture picture = i == 0 ? golden::ExrPicture{} : read_picture(files[i], layer);
+        if (i > 0) {
+            expect_size(files[i], picture.mean, golden);
+            pictures.push_back(std::move(picture.mean));
+            metadata = picture.metadata;
+        }
+        check_file(golden, files[i], metadata, golden::Method::welch);
+        const std::string seed = value_of(metadata, "seed");
+        const auto [other, is_new] = seeds.emplace(seed, files[i]);
+        if (!is_new && !seed.empty())
+            throw std::invalid_argument(other->second + " and " + files[i] + " have the same seed, " +
+                                        seed + ": they are not independent");
+    }
+    expect_independent_pictures(golden, pictures, files);
+    golden::Comparison comparison = golden::compare_pictures(golden, pictures);
+    golden::Film film(golden.mean.width, golden.mean.height);
+    for (const golden::Image& picture : pictures) film.add_batch(picture);
+    return {std::move(comparison), film.mean(), std::move(first.metadata), std::move(first.layers)};
+}
+
+Judged judge_picture(const golden::Golden& golden, const std::string& file, golden::ExrPicture picture,
+                     const CandidateOptions& options)
+{
+    check_file(golden, file, picture.metadata, golden::Method::picture);
+    // The samples that a file states are those of the whole.
+    if (options.layer.starts_with(batch_prefix) && !options.samples)
+        throw std::invalid_argument(file + ": layer " + options.layer +
+                                    " is one batch: give its samples by -s");
+    const double samples = samples_of(file, picture.metadata, options);
+    golden::Comparison comparison;
+    try {
+        comparison = golden::compare_picture(golden, picture.mean, samples);
+    } catch (const std::invalid_argument& error) {
+        throw golden::ImageError(file, error.what());
+    }
+    return {std::move(comparison), std::move(picture.mean), std::move(picture.metadata),
+            std::move(picture.layers)};
+}
+
 } // namespace
 
 Judged judge(const golden::Golden& golden, const std::vector<std::string>& files,
@@ -124,38 +167,24 @@ Judged judge(const golden::Golden& golden, const std::vector<std::string>& files
         throw std::invalid_argument(
             "--integrator, --device and --seed are for a scene that is rendered here");
     if (scene && files.size() > 1) throw std::invalid_argument(files[1] + ": a scene is judged alone");
-    if (options.samples && (scene || files.size() > 1))
-        throw std::invalid_argument("--samples is for a single picture");
+    if (scene && !options.layer.empty())
+        throw std::invalid_argument("--layer " + options.layer + " is for pictures, .exr");
+    if (options.samples && files.size() > 1)
+        throw std::invalid_argument("--samples is for a single picture or a scene");
     if (scene) return judge_scene(golden, files.front(), options);
 
-    golden::ExrPicture first = read_picture(files.front());
+    golden::ExrPicture first = read_picture(files.front(), options.layer);
     expect_size(files.front(), first.mean, golden);
-    std::vector<golden::Image> batches;
-    if (files.size() > 1) { // independent pictures
-        golden::check_comparable(golden, first.metadata, golden::Method::welch);
-        batches.push_back(first.mean);
-        for (std::size_t i = 1; i < files.size(); ++i) {
-            golden::ExrPicture picture = read_picture(files[i]);
-            expect_size(files[i], picture.mean, golden);
-            golden::check_comparable(golden, picture.metadata, golden::Method::welch);
-            batches.push_back(std::move(picture.mean));
-        }
-        return judge_batches(golden, batches, golden::Method::welch, std::move(first));
-    }
-    for (const auto& [name, layer] : first.layers)
-        if (name.starts_with("batch.")) batches.push_back(layer);
-    if (batches.size() > 1) {
-        const golden::Method method = same_estimator(first.metadata, golden.metadata)
-                                          ? golden::Method::ranks
-                                          : golden::Method::welch;
-        golden::check_comparable(golden, first.metadata, method);
-        return judge_batches(golden, batches, method, std::move(first));
-    }
-    golden::check_comparable(golden, first.metadata, golden::Method::picture);
-    const double samples = samples_of(files.front(), first.metadata, options);
-    golden::Comparison comparison = golden::compare_picture(golden, first.mean, samples);
-    return {std::move(comparison), std::move(first.mean), std::move(first.metadata),
-            std::move(first.layers)};
+    const auto batches = std::count_if(first.layers.begin(), first.layers.end(), [](const auto& layer) {
+        return layer.first.starts_with(batch_prefix);
+    });
+    Judged judged = files.size() > 1 ? judge_pictures(golden, files, std::move(first), options.layer)
+                    : batches > 1 && options.layer.empty()
+                        ? judge_batches(golden, files.front(), std::move(first))
+                        : judge_picture(golden, files.front(), std::move(first), options);
+    judged.comparison.reason +=
+        golden::say_possible_causes(judged.comparison, golden, judged.metadata, judged.mean);
+    return judged;
 }
 
 } // namespace cli

@@ -14,7 +14,8 @@
 namespace cli {
 
 struct CandidateOptions {
-    std::optional<double> samples;     // per pixel, of a single picture
+    std::optional<double> samples;     // per pixel, of a single picture or of a scene's first stage
+    std::string layer;                 // of .exr files; empty: their R, G and B
     std::string integrator;            // of a scene; empty: the golden's
     std::string device = "ref";        // that renders a scene
     std::optional<std::uint64_t> seed; // of a scene; none: another one every time
@@ -32,7 +33,8 @@ struct Judged {
 /// Chooses the method by what the files are: a scene is rendered in stages; a picture of ours with its
 /// batches (`render --keep-batches`) and several pictures are compared by these; a single picture by the
 /// noise that its number of samples lets expect. Throws golden::ImageError, scenes::SceneError and
-/// std::invalid_argument for what cannot be read or compared, Interrupted if a render was.
+/// std::invalid_argument, which names the file, for what cannot be read or compared, pictures that are
+/// not independent among it; Interrupted if a render was.
 Judged judge(const golden::Golden& golden, const std::vector<std::string>& files,
              const CandidateOptions& options);
 

@@ -6,6 +6,7 @@
 #include "cli/output_files.h"
 #include "cli/scene_input.h"
 #include "golden/atomic_file.h"
+#include "golden/reason.h"
 #include "golden/report.h"
 
 #include <algorithm>
@@ -42,9 +43,9 @@ void print_screen(const golden::Comparison& comparison)
                     static_cast<unsigned long long>(stage.batches), stage.p, stage.level);
     std::printf("conclusive  %.1f%% of %zu tests\n", 100.0 * comparison.coverage,
                 comparison.findings.size());
-    if (comparison.noise_ratio)
-        std::printf("noise       %.2f times what its samples were assumed to have\n",
-                    *comparison.noise_ratio);
+    if (comparison.noise_ratio) std::printf("noise       %s\n", say_noise(comparison).c_str());
+    if (const std::string limit = say_golden_limit(comparison); !limit.empty())
+        std::printf("golden      %s\n", limit.c_str());
     std::printf("\nwhole picture  candidate/golden     99%% interval         would have seen\n");
     for (std::size_t c = 0; c < golden::channel_count; ++c) {
         const golden::Finding& whole = whole_picture(comparison, c);
@@ -120,8 +121,10 @@ void add_compare_command(CLI::App& program, Work& work)
         ->expected(2, 1 << 16);
     command
         ->add_option("-s,--samples", options->candidate.samples,
-                     "Samples per pixel of the one picture, if it does not say so itself")
+                     "Samples per pixel: of one picture that does not say so, or to render")
         ->check(CLI::Range(1.0, 1e12));
+    command->add_option("--layer", options->candidate.layer,
+                        "Of .exr files: the picture to compare, by name [their R, G and B]");
     command
         ->add_option("--integrator", options->candidate.integrator,
                      "Of a scene that is rendered here: path, bdpt or light [the golden's]")

@@ -36,19 +36,6 @@ std::uint64_t number_in(const golden::Metadata& metadata, const std::string& key
     return value;
 }
 
-/// Throws unless everything that shapes the picture is what `description` says.
-void expect_same_making(const fs::path& path, const golden::Metadata& found,
-                        const golden::Metadata& description)
-{
-    for (const auto& [key, value] : description) {
-        if (key == "version") continue; // a golden stays until its picture is wrong
-        const std::string stored = value_of(found, key);
-        if (stored != value)
-            throw golden::ImageError(path, "its " + key + " is '" + stored + "', not '" + value +
-                                               "': remove the file to make it anew");
-    }
-}
-
 std::string command_of(const GoldenCommand& options, const std::string& scene)
 {
     return "plumbline golden " + fs::path(scene).filename().string() + " --size " + options.size +
@@ -79,18 +66,13 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
     std::optional<golden::GoldenMaker> maker;
     if (fs::exists(path)) {
         const golden::ExrPicture earlier = golden::read_exr(path);
-        expect_same_making(path, earlier.metadata, metadata);
+        expect_made_so(options, Ask::all_options, {path, earlier.mean, earlier.metadata, !earlier.film},
+                       metadata);
         if (!earlier.film) { // finished
-            if (number_in(earlier.metadata, "samples") != options.samples)
-                throw golden::ImageError(path, "is finished, with other than " +
-                                                   std::to_string(options.samples) +
-                                                   " samples: remove the file to make it anew");
             std::cout << scene.name << ": is there\n";
             return true;
         }
         maker.emplace(golden::GoldenMaker::resume(path));
-        if (maker->pilot_batches() != options.pilot_batches)
-            throw golden::ImageError(path, "has another number of pilot batches: remove the file");
     } else {
         maker.emplace(size.width, size.height, options.pilot_batches);
     }
@@ -131,17 +113,24 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
     return true;
 }
 
+std::vector<std::string> scenes_in(const std::string& folder)
+{
+    const std::string where = "--all: " + fs::absolute(folder).lexically_normal().string();
+    const std::string otherwise = ": name the folder of the scenes by --scene-folder";
+    if (!fs::is_directory(folder)) throw std::invalid_argument(where + " is no folder" + otherwise);
+    std::vector<std::string> scenes;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".dae") scenes.push_back(entry.path().string());
+    if (scenes.empty()) throw std::invalid_argument(where + " holds no .dae" + otherwise);
+    std::sort(scenes.begin(), scenes.end());
+    return scenes;
+}
+
 ExitStatus golden_command(GoldenCommand options)
 {
     if (options.all == !options.scenes.empty())
-        throw std::invalid_argument("name scenes, or say --all for those in the folder scenes");
-    if (options.all) {
-        if (!fs::is_directory("scenes"))
-            throw std::invalid_argument("--all: there is no folder scenes here");
-        for (const auto& entry : fs::directory_iterator("scenes"))
-            if (entry.path().extension() == ".dae") options.scenes.push_back(entry.path().string());
-        std::sort(options.scenes.begin(), options.scenes.end());
-    }
+        throw std::invalid_argument("name scenes, or say --all for those in --scene-folder");
+    if (options.all) options.scenes = scenes_in(options.scene_folder);
     catch_interrupts();
     if (options.list) return list_goldens(options);
     if (options.verify > 0) return verify_goldens(options);
@@ -211,7 +200,11 @@ void add_golden_command(CLI::App& program, Work& work)
     CLI::App* command =
         program.add_subcommand("golden", "Make, check and list the pictures that others are judged by");
     command->add_option("scenes", options->scenes, "COLLADA files");
-    command->add_flag("--all", options->all, "All scenes in the folder scenes");
+    CLI::Option* all =
+        command->add_flag("--all", options->all, "All scenes, .dae, in the folder of scenes");
+    command->add_option("--scene-folder", options->scene_folder, "Where the scenes of --all are")
+        ->needs(all)
+        ->capture_default_str();
     command->add_option("--folder", options->folder, "Where goldens are")->capture_default_str();
     command->add_option("--size", options->size, "Width x height in pixels")->capture_default_str();
     command->add_option("-s,--samples", options->samples, "Samples per pixel, the pilot's included")
@@ -230,19 +223,26 @@ void add_golden_command(CLI::App& program, Work& work)
         ->capture_default_str();
     command->add_option("-t,--threads", options->threads, "Threads; the picture does not depend on them")
         ->check(CLI::Range(1u, 1024u));
-    command->add_option("--watch", options->watch, "Seconds between writes of what there is")
-        ->check(CLI::Range(0.0, 1e9))
-        ->capture_default_str();
+    CLI::Option* watch =
+        command->add_option("--watch", options->watch, "Seconds between writes of what there is")
+            ->check(CLI::Range(0.0, 1e9))
+            ->capture_default_str();
     CLI::Option* list = command->add_flag("--list", options->list, "Say what is there, make nothing");
+    list->excludes(watch);
     command
         ->add_option("--verify", options->verify,
                      "Render so many batches of each golden again: the same bits?")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
-        ->excludes(list);
+        ->excludes(list, watch);
     command->add_flag("-q,--quiet", options->quiet, "No progress and no notices");
     command->footer("Interrupted, the same command goes on where it stopped.\n"
                     "Example: plumbline golden scenes/cornell_glass.dae -s 10240");
-    command->callback([options, &work] { work = [options] { return golden_command(*options); }; });
+    command->callback([options, command, &work] {
+        const auto given = [&](const char* name) { return command->count(name) > 0; };
+        options->given = {given("--size"), given("--samples"), given("--batch"), given("--pilot"),
+                          given("--max-edges")};
+        work = [options] { return golden_command(*options); };
+    });
 }
 
 } // namespace cli

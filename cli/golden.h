@@ -19,7 +19,8 @@ void add_golden_command(CLI::App& program, Work& work);
 
 struct GoldenCommand {
     std::vector<std::string> scenes;
-    bool all = false; // every .dae in the folder "scenes" of the working directory
+    bool all = false; // every .dae in `scene_folder`
+    std::string scene_folder = "scenes";
     std::string folder = "golden/renders";
     std::string size = "64x64";
     std::uint64_t samples = 1024;
@@ -31,6 +32,11 @@ struct GoldenCommand {
     bool list = false;
     std::uint64_t verify = 0; // batches per golden; 0: make goldens instead
     bool quiet = false;
+    /// Which of the options above were given: those must be what a golden that is there was made with,
+    /// also where none is made.
+    struct Given {
+        bool size = false, samples = false, batch_size = false, pilot_batches = false, max_edges = false;
+    } given;
 };
 
 /// Goldens have a seed of their own: no candidate may share their random numbers.
@@ -44,6 +50,21 @@ RenderCommand render_of(const golden::Golden& golden, const std::string& scene);
 
 /// Where the golden of a scene file lies.
 std::filesystem::path golden_file(const GoldenCommand& options, const std::string& scene);
+
+/// A golden that is there, or one in the making.
+struct FoundGolden {
+    const std::filesystem::path& path;
+    const golden::Image& mean;
+    const golden::Metadata& metadata;
+    bool finished;
+};
+enum class Ask { all_options, given_options };
+
+/// Throws golden::ImageError that names each difference, with both values, if the golden was not made as
+/// the options say: all of them, or only those that were given. `render_says` is how the render of the
+/// scene describes itself; what is not in it is not compared.
+void expect_made_so(const GoldenCommand& options, Ask ask, const FoundGolden& found,
+                    const golden::Metadata& render_says);
 
 /// Renders batches of each golden anew, drawn at random, and compares all their functionals, bit for
 /// bit; with as many batches as the golden has, its mean too. Says what it finds line by line.

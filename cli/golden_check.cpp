@@ -36,7 +36,9 @@ enum class Outcome { same, different, interrupted };
 
 Outcome verify(const GoldenCommand& options, const std::string& file)
 {
-    const golden::Golden stored = golden::read_golden(golden_file(options, file));
+    const fs::path path = golden_file(options, file);
+    const golden::Golden stored = golden::read_golden(path);
+    expect_made_so(options, Ask::given_options, {path, stored.mean, stored.metadata, true}, {});
     RenderCommand command = render_of(stored, file);
     command.threads = options.threads;
     const scenes::Scene scene = load_scene(file, command.frame, true);
@@ -126,6 +128,7 @@ ExitStatus list_goldens(const GoldenCommand& options)
             continue;
         }
         const golden::Golden stored = golden::read_golden(path);
+        expect_made_so(options, Ask::given_options, {path, stored.mean, stored.metadata, true}, {});
         const RenderCommand command = render_of(stored, file);
         const auto detectable =
             golden::detectable_error(stored, golden::CompareOptions{}.stages.front());

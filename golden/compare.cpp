@@ -1,5 +1,6 @@
 #include "golden/compare.h"
 
+#include "golden/reason.h"
 #include "golden/verdict.h"
 
 #include <algorithm>
@@ -10,6 +11,50 @@
 namespace golden {
 
 namespace {
+
+double largest_of(const std::array<double, channel_count>& errors)
+{
+    double largest = 0.0;
+    for (const double error : errors) largest = std::fmax(largest, error); // passes over NaN
+    return largest;
+}
+
+/// A golden of so many times the batches would leave half of the variance that is allowed to the
+/// candidate, if the difference of two means is normally distributed: ranks need 3 / pi times as many.
+double golden_needed(const Golden& golden, const CompareOptions& options)
+{
+    double factor = 1.0;
+    const Judge judge(golden, Method::welch, options);
+    for (std::size_t c = 0; c < channel_count; ++c) {
+        const Moments whole = moments(values_of(golden.reference, golden.functionals, 0, c));
+        if (whole.count < 2.0 || !(whole.mean > 0.0)) continue;
+        factor = std::max(factor, judge.judge(mean_estimate(whole), 0.0, 0, c).reach.golden);
+    }
+    return factor;
+}
+
+/// The same as summarise_reach for ranks, of which no formula tells what more batches would show.
+void reach_by_ranks(Comparison& comparison, const Golden& golden, const CompareOptions& options)
+{
+    constexpr std::uint64_t beyond_count = std::uint64_t{1} << 50;
+    comparison.golden_limit = detectable_error(golden, beyond_count, options);
+    if (!(largest_of(comparison.detectable) > options.specification)) return;
+    Shortfall shortfall{std::numeric_limits<double>::infinity(),
+                        static_cast<double>(golden.functionals.pilot().batches) +
+                            golden_needed(golden, options) *
+                                static_cast<double>(golden.reference.size())};
+    if (largest_of(comparison.golden_limit) <= options.specification) {
+        double batches = comparison.candidate_batches;
+        const auto detectable = [&] {
+            return largest_of(
+                detectable_error(golden, static_cast<std::uint64_t>(std::ceil(batches)), options));
+        };
+        while (batches < static_cast<double>(beyond_count) && detectable() > options.specification)
+            batches *= 1.1;
+        shortfall.candidate = batches;
+    }
+    comparison.shortfall = shortfall;
+}
 
 Comparison first_stage(const Golden& golden, const Candidate& candidate, Method method,
                        const CompareOptions& options)
@@ -26,13 +71,25 @@ Comparison first_stage(const Golden& golden, const Candidate& candidate, Method 
     Comparison comparison;
     comparison.method = method;
     comparison.golden_batches = golden.reference.size();
+    comparison.candidate_batches = static_cast<double>(candidate.batches());
+    comparison.batch_size = batch_size_of(golden);
     const Judge judge(golden, method, options);
     for (std::size_t c = 0; c < channel_count; ++c)
         for (std::size_t f = 0; f < golden.functionals.size(); ++f)
             if (judge.looks_at(f)) comparison.findings.push_back(judge.judge(candidate.rows(), f, c));
     summarise(comparison);
+    if (method == Method::ranks)
+        reach_by_ranks(comparison, golden, options);
+    else
+        summarise_reach(comparison, golden, options);
+    // Of how many samples pictures of another estimator are is not known; of one of a batch at least.
+    const double batches = method == Method::ranks ? comparison.candidate_batches
+                           : comparison.batch_size > 0.0
+                               ? comparison.candidate_batches / comparison.batch_size
+                               : 0.0;
+    comparison.odd = odd_pixels(golden, candidate.film().mean(), batches, options.dark);
     comparison.stages.push_back({candidate.batches(), comparison.p, options.accuse});
-    comparison.false_alarm = options.convict; // unless further stages are planned
+    comparison.false_alarm = options.convict + options.dark; // unless further stages are planned
     return comparison;
 }
 
@@ -86,11 +143,12 @@ void check_comparable(const Golden& golden, const Metadata& candidate, Method me
     demand_equal("scene_hash", "scene's hash");
     demand_equal("camera", "camera");
     demand_equal("max_edges", "greatest path length");
-    if (method != Method::ranks) return;
-    for (const char* key : {"batch_size", "integrator", "heuristic", "roulette"}) demand_equal(key, key);
+    // Integrators that draw from one seed share random numbers: the camera's at least.
     if (both_say("seed") && golden.metadata.at("seed") == candidate.at("seed"))
         throw std::invalid_argument("has the golden's own seed, " + candidate.at("seed") +
                                     ": the two are not independent");
+    if (method != Method::ranks) return;
+    for (const char* key : {"batch_size", "integrator", "heuristic", "roulette"}) demand_equal(key, key);
 }
 
 Comparison compare(const Golden& golden, const Candidate& candidate, Method method,
@@ -99,9 +157,9 @@ Comparison compare(const Golden& golden, const Candidate& candidate, Method meth
     Comparison comparison = first_stage(golden, candidate, method, options);
     if (decide_at_once(comparison, options)) return comparison;
     comparison.verdict = Verdict::inconclusive;
-    comparison.reason = "Suspicious: " + say_suspicion(comparison) + ". One right picture in " +
-                        say(1.0 / options.accuse, 3) +
-                        " looks so: a fresh render must confirm or clear it.";
+    give_reason(comparison, "Suspicious: " + say_suspicion(comparison) + ". One right picture in " +
+                                say(1.0 / options.accuse, 3) +
+                                " looks so: a fresh render must confirm or clear it.");
     return comparison;
 }
 
@@ -126,6 +184,7 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
     render(0, options.stages[0], first);
     Comparison comparison = first_stage(golden, first, method, options);
     comparison.false_alarm =
+        options.dark +
         false_alarm_bound(golden.functionals, method, golden.reference.size(), options.stages, options);
     if (decide_at_once(comparison, options)) return comparison;
 
@@ -145,7 +204,8 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
         }
     }
     if (comparison.stages.size() == 1)
-        comparison.reason = "Suspicious: " + say_suspicion(comparison) + ", and no stage to confirm it.";
+        give_reason(comparison,
+                    "Suspicious: " + say_suspicion(comparison) + ", and no stage to confirm it.");
     else
         convict(comparison, "; confirmed on a fresh render, p = " + say(comparison.stages.back().p, 2));
     return comparison;

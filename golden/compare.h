@@ -7,12 +7,14 @@
 #include "golden/functionals.h"
 #include "golden/golden.h"
 #include "golden/image.h"
+#include "golden/odd_pixels.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,6 +51,14 @@ struct Stage {
     double level; // the suspicion stands if p < level
 };
 
+/// How much it would take for an error of the specified size to be detectable: so many batches of the
+/// candidate (pictures, with Method::welch) with the golden as it is; or a golden of so many batches,
+/// its pilot included. The first is infinite if the golden's own noise hides such an error.
+struct Shortfall {
+    double candidate;
+    double golden;
+};
+
 struct Comparison {
     Verdict verdict = Verdict::inconclusive;
     std::string reason; // one or two sentences
@@ -60,15 +70,22 @@ struct Comparison {
     /// Smallest detectable relative error of the whole picture, per channel, at the first stage; NaN for
     /// a channel in which the golden is black.
     std::array<double, 3> detectable{};
+    /// The same for a candidate without noise: smaller errors are hidden by the golden's own noise.
+    std::array<double, 3> golden_limit{};
+    std::optional<Shortfall> shortfall; // if `detectable` is larger than the specification asks for
+    std::vector<OddPixels> odd;         // of the candidate's pixels: named before all statistics
     /// The stratum in which the smallest detectable error is largest: the finding that would show it, if
     /// any would.
     std::optional<std::size_t> blindest_stratum;
     double false_alarm = 0.0; // at most this chance has a right picture to FAIL
     double coverage = 1.0;    // share of the findings that are conclusive
-    /// Method::picture: the variance that the picture shows between neighbouring pixels over the one
-    /// assumed, in the whole picture.
-    std::optional<double> noise_ratio;
+    /// Method::picture: the variance of the picture's own noise over the one assumed, in the whole
+    /// picture but its odd pixels, in the channel where it is largest; and the standard error of this
+    /// ratio.
+    std::optional<double> noise_ratio, noise_error;
     std::uint64_t golden_batches = 0; // those that the candidate was compared with
+    double candidate_batches = 0.0;   // of its first stage; pictures, with Method::welch
+    double batch_size = 0.0;          // samples per pixel in a batch of the golden; 0 if it does not say
 };
 
 /// The finding of the whole picture in this channel, plainly weighed: its ratio is that of the means.
@@ -105,10 +122,18 @@ using RenderStage = std::function<void(std::size_t stage, std::uint64_t batches,
 Comparison compare(const Golden& golden, const RenderStage& render, Method method,
                    const CompareOptions& options = {});
 
+/// Judges several independent pictures, each equally good, of an unknown estimator, by Method::welch as
+/// above. If what rules the result are a few pixels far brighter than the golden's, it says what the
+/// verdict would be without them. Throws as Candidate::add_batch and compare.
+Comparison compare_pictures(const Golden& golden, std::span<const Image> pictures,
+                            const CompareOptions& options = {});
+
 /// Judges a single picture, said to be the mean of `samples` samples per pixel. Its noise is taken to be
-/// that of the golden's estimator, or what it shows between neighbouring pixels, whichever is larger:
-/// see noise_ratio. The golden's metadata must have a batch_size. Throws std::invalid_argument as
-/// Candidate::add_batch, and for samples that are not positive.
+/// that of the golden's estimator, or what it shows between neighbouring pixels beyond the golden's own
+/// noise, whichever is larger: see noise_ratio. Pixels far brighter than the golden's are treated as by
+/// compare_pictures. The golden's metadata must have a batch_size. Throws std::invalid_argument as
+/// Candidate::add_batch, for samples that are not positive, and for a picture that has the golden's own
+/// noise, as a copy of it has.
 Comparison compare_picture(const Golden& golden, const Image& picture, double samples,
                            const CompareOptions& options = {});
 

@@ -1,10 +1,10 @@
 // A single picture of unknown noise.
 
 #include "golden/compare.h"
+#include "golden/reason.h"
 #include "golden/verdict.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,25 +12,27 @@ namespace golden {
 
 namespace {
 
-double number_in(const Metadata& metadata, const std::string& key)
-{
-    const auto found = metadata.find(key);
-    double number = 0.0;
-    if (found != metadata.end())
-        std::from_chars(found->second.data(), found->second.data() + found->second.size(), number);
-    if (!(number > 0.0)) throw std::invalid_argument("the golden does not say its " + key);
-    return number;
-}
+/// The noise of a linear functional of a picture as its own pixels tell it.
+struct Scatter {
+    double variance;        // of the functional, by the picture's noise alone; by chance it may be < 0
+    double error;           // standard error of this variance
+    double golden;          // the golden's share, taken off
+    double expected;        // the variance for one batch by the golden's noise per pixel
+    double blocks;          // as many sums as were looked at
+    double blocks_skewness; // of these sums
+};
 
-/// The variance of a linear functional of a picture as its own pixels tell it: the picture's difference
-/// from the golden, summed over small blocks, would vary from block to block by noise alone. Blocks, as
+/// The picture's difference from the golden, summed over small blocks, varies from block to block by
+/// noise alone: that of the picture, and that of the golden, which its standard errors tell. Blocks, as
 /// reconstruction filters make neighbouring pixels depend on each other.
-Moments scatter(const Golden& golden, const Image& picture, std::size_t functional, std::size_t channel)
+Scatter scatter(const Golden& golden, const Image& picture, std::size_t functional, std::size_t channel)
 {
     const Functionals& functionals = golden.functionals;
     const Region& region = functionals.regions()[functionals.at(functional).region];
     const int side = std::clamp(std::max(picture.width, picture.height) / 32, 1, 4);
+    const auto c = static_cast<int>(channel);
     std::vector<double> blocks;
+    double golden_variance = 0.0;
     for (int y0 = region.y0; y0 < region.y1; y0 += side)
         for (int x0 = region.x0; x0 < region.x1; x0 += side) {
             double sum = 0.0;
@@ -41,14 +43,96 @@ Moments scatter(const Golden& golden, const Image& picture, std::size_t function
                         static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                         static_cast<std::size_t>(x);
                     const double weight = functionals.pixel_weight(functional, channel, i);
-                    const auto c = static_cast<int>(channel);
                     if (weight == 0.0) continue;
                     inside = true;
                     sum += weight * (picture.pixels[i][c] - golden.mean.pixels[i][c]);
+                    const double error = weight * golden.standard_error.pixels[i][c];
+                    golden_variance += error * error;
                 }
             if (inside) blocks.push_back(sum);
         }
-    return moments(blocks);
+    const Moments found = moments(blocks);
+    double fourth = 0.0;
+    for (const double sum : blocks) fourth += std::pow(sum - found.mean, 4.0);
+    // Of normal deviations with variances v the squares add up with a variance of 2 sum v^2, and their
+    // fourth powers to 3 sum v^2.
+    return {found.variance * found.count - golden_variance,
+            std::sqrt(2.0 / 3.0 * fourth),
+            golden_variance,
+            golden_variance * static_cast<double>(golden.batches()),
+            found.count,
+            found.skewness};
+}
+
+/// A picture that is independent of the golden differs from it by the golden's noise at least.
+void expect_independent(const Scatter& whole)
+{
+    constexpr double fewest = 64.0; // blocks. A quarter of what is expected has a chance of 1e-9 then
+    if (whole.blocks >= fewest && whole.golden > 0.0 &&
+        whole.variance + whole.golden < 0.25 * whole.golden)
+        throw std::invalid_argument("has the golden's own noise: it is not independent of the golden");
+}
+
+/// The noise of the whole picture, in the channel where it exceeds most what its samples let expect.
+void measure_noise(Comparison& comparison, const Golden& golden, const Image& picture)
+{
+    constexpr std::size_t whole = 0; // matched
+    for (std::size_t c = 0; c < channel_count; ++c) {
+        const Scatter shown = scatter(golden, picture, whole, c);
+        if (!(shown.expected > 0.0)) continue;
+        expect_independent(shown);
+        const double assumed = shown.expected / comparison.candidate_batches;
+        if (comparison.noise_ratio && shown.variance / assumed <= *comparison.noise_ratio) continue;
+        comparison.noise_ratio = shown.variance / assumed;
+        comparison.noise_error = shown.error / assumed;
+    }
+}
+
+/// Findings and what follows from them.
+Comparison look_at_picture(const Golden& golden, const Image& picture, double batches,
+                           const CompareOptions& options)
+{
+    const Functionals& functionals = golden.functionals;
+    const std::vector<Row> row = {functionals.evaluate(picture)};
+    Comparison comparison;
+    comparison.method = Method::picture;
+    comparison.golden_batches = golden.reference.size();
+    comparison.candidate_batches = batches;
+    comparison.batch_size = batch_size_of(golden);
+    const Judge judge(golden, Method::picture, options);
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t f = 0; f < functionals.size(); ++f) {
+            if (!judge.looks_at(f)) continue;
+            const Moments reference = moments(values_of(golden.reference, functionals, f, c));
+            MeanEstimate estimate{values_of(row, functionals, f, c)[0], reference.variance / batches,
+                                  reference.count - 1.0};
+            double skewed = std::abs(reference.skewness) / std::sqrt(batches);
+            const Scatter shown = scatter(golden, picture, f, c);
+            if (shown.variance > estimate.variance) {
+                estimate.variance = shown.variance;
+                // Of a variance that is what is left of a larger one, S, when a known part is taken off,
+                // the relative error is larger by S over what is left. Fewer than one degree would
+                // lead to quantiles beyond all numbers.
+                const double share = shown.variance / (shown.variance + shown.golden);
+                estimate.degrees = std::max(1.0, (shown.blocks - 1.0) * share * share);
+                skewed = std::max(skewed, std::abs(shown.blocks_skewness) / std::sqrt(shown.blocks));
+            }
+            comparison.findings.push_back(judge.judge(estimate, skewed, f, c));
+        }
+    summarise(comparison);
+    summarise_reach(comparison, golden, options);
+    comparison.false_alarm = options.convict + options.dark;
+    comparison.stages.push_back({static_cast<std::uint64_t>(std::llround(std::max(1.0, batches))),
+                                 comparison.p, options.accuse});
+    return comparison;
+}
+
+void decide(Comparison& comparison, const CompareOptions& options)
+{
+    if (decide_at_once(comparison, options)) return;
+    comparison.verdict = Verdict::inconclusive;
+    give_reason(comparison, "Suspicious: " + say_suspicion(comparison) +
+                                ". A second, independent picture must confirm or clear it.");
 }
 
 } // namespace
@@ -59,42 +143,19 @@ Comparison compare_picture(const Golden& golden, const Image& picture, double sa
     if (!(samples > 0.0)) throw std::invalid_argument("the number of samples must be positive");
     if (golden.reference.size() < 2)
         throw std::invalid_argument("the golden has one batch after its pilot: too few");
-    const Functionals& functionals = golden.functionals;
-    const std::vector<Row> row = {functionals.evaluate(picture)};
-    const double batches = samples / number_in(golden.metadata, "batch_size");
-    Comparison comparison;
-    comparison.method = Method::picture;
-    comparison.golden_batches = golden.reference.size();
-    const Judge judge(golden, Method::picture, options);
-    for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t f = 0; f < functionals.size(); ++f) {
-            if (!judge.looks_at(f)) continue;
-            const Moments reference = moments(values_of(golden.reference, functionals, f, c));
-            MeanEstimate estimate{values_of(row, functionals, f, c)[0], reference.variance / batches,
-                                  reference.count - 1.0};
-            double skewed = std::abs(reference.skewness) / std::sqrt(batches);
-            const Moments blocks = scatter(golden, picture, f, c);
-            const double shown = blocks.variance * blocks.count;
-            const Functional functional = functionals.at(f);
-            if (functional.region == 0 && functional.weight == Weight::matched &&
-                estimate.variance > 0.0)
-                comparison.noise_ratio =
-                    std::max(comparison.noise_ratio.value_or(0.0), shown / estimate.variance);
-            if (shown > estimate.variance) {
-                estimate.variance = shown;
-                estimate.degrees = blocks.count - 1.0;
-                skewed = std::max(skewed, std::abs(blocks.skewness) / std::sqrt(blocks.count));
-            }
-            comparison.findings.push_back(judge.judge(estimate, skewed, f, c));
-        }
-    summarise(comparison);
-    comparison.false_alarm = options.convict;
-    comparison.stages.push_back({static_cast<std::uint64_t>(std::llround(std::max(1.0, batches))),
-                                 comparison.p, options.accuse});
-    if (decide_at_once(comparison, options)) return comparison;
-    comparison.verdict = Verdict::inconclusive;
-    comparison.reason = "Suspicious: " + say_suspicion(comparison) +
-                        ". A second, independent picture must confirm or clear it.";
+    const double batch_size = batch_size_of(golden);
+    if (!(batch_size > 0.0)) throw std::invalid_argument("the golden does not say its batch_size");
+    const double batches = samples / batch_size;
+    Comparison comparison = look_at_picture(golden, picture, batches, options);
+    comparison.odd = odd_pixels(golden, picture, batches, options.dark);
+    measure_noise(comparison, golden, replaced(picture, pixels_of(comparison.odd), golden.mean));
+    decide(comparison, options);
+    const auto bright = bright_pixels(comparison.odd);
+    if (comparison.verdict != Verdict::inconclusive || bright.empty()) return comparison;
+    Comparison without =
+        look_at_picture(golden, replaced(picture, bright, golden.mean), batches, options);
+    decide(without, options);
+    decide_without(comparison, without, options);
     return comparison;
 }
 

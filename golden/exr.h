@@ -44,8 +44,9 @@ struct ExrPicture {
 
 /// Reads one of our files or another renderer's: half or float, scan lines or tiles, any order of
 /// channels. The picture is the data window, wherever it lies. Values may be NaN (see
-/// first_non_finite). Throws ImageError for what is no such picture: several parts, deep data, no R, G
-/// and B, an incomplete state, damage.
-ExrPicture read_exr(const std::filesystem::path& path);
+/// first_non_finite). `layer`, if it is not empty, is the picture to take instead of R, G, B; standard
+/// error and state, which belong to those, are left out then. Throws ImageError for what is no such
+/// picture: several parts, deep data, no R, G and B, no such layer, an incomplete state, damage.
+ExrPicture read_exr(const std::filesystem::path& path, const std::string& layer = "");
 
 } // namespace golden

@@ -66,6 +66,7 @@ public:
     [[nodiscard]] const Imf::Header& header() const { return file_.header(); }
     [[nodiscard]] const Imf::ChannelList& channels() const { return header().channels(); }
     [[nodiscard]] bool has(const std::string& channel) const { return channels().findChannel(channel); }
+    /// An empty name is that of R, G and B.
     [[nodiscard]] bool has_layer(const std::string& layer) const
     {
         return has(channel_name(layer, 0)) && has(channel_name(layer, 1)) && has(channel_name(layer, 2));
@@ -200,6 +201,22 @@ std::vector<std::string> layer_names(const Reader& reader)
     return names;
 }
 
+/// Throws, with the layers that there are, if a picture in layers has not the one that is asked for.
+/// What has no layers is told by its channels.
+void expect_picture(const fs::path& path, const Reader& reader, const std::string& layer,
+                    const std::vector<std::string>& names)
+{
+    if (reader.has_layer(layer) || (layer.empty() && names.empty())) return;
+    std::string list;
+    constexpr std::size_t most = 8;
+    for (std::size_t i = 0; i < std::min(most, names.size()); ++i)
+        list += (i == 0 ? "" : ", ") + names[i];
+    if (names.size() > most) list += ", ...";
+    throw ImageError(path, (layer.empty() ? "has no R, G and B outside layers"
+                                          : "has no layer " + layer + " of R, G and B") +
+                               (names.empty() ? "" : "; choose one of its layers: " + list));
+}
+
 std::optional<Film> read_state(const fs::path& path, Reader& reader)
 {
     if (reader.channels().findChannel(channel_name(mean_state, 0) + ".hi") == nullptr)
@@ -217,17 +234,20 @@ std::optional<Film> read_state(const fs::path& path, Reader& reader)
 
 } // namespace
 
-ExrPicture read_exr(const fs::path& path)
+ExrPicture read_exr(const fs::path& path, const std::string& layer)
 {
     const std::string bytes = read_file(path);
     try {
         Reader reader(path, bytes);
         ExrPicture picture;
-        picture.mean = reader.layer("");
+        const std::vector<std::string> names = layer_names(reader);
+        expect_picture(path, reader, layer, names);
+        picture.mean = reader.layer(layer);
+        picture.metadata = read_metadata(reader.header());
+        for (const std::string& name : names) picture.layers[name] = reader.layer(name);
+        if (!layer.empty()) return picture;
         if (reader.has_layer(standard_error_layer))
             picture.standard_error = reader.layer(standard_error_layer);
-        for (const std::string& name : layer_names(reader)) picture.layers[name] = reader.layer(name);
-        picture.metadata = read_metadata(reader.header());
         picture.film = read_state(path, reader);
         return picture;
     } catch (const std::bad_alloc&) {

@@ -10,6 +10,7 @@ namespace golden {
 namespace {
 
 constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
+constexpr double without_end = std::numeric_limits<double>::infinity();
 
 } // namespace
 
@@ -59,7 +60,11 @@ std::vector<RegionKind> Multiplicity::kinds() const
 Judge::Judge(const Golden& golden, Method method, const CompareOptions& options)
     : golden_(golden), functionals_(golden.functionals), method_(method), options_(options),
       multiplicity_(functionals_, method)
-{}
+{
+    for (const Rgb& pixel : golden.mean.pixels)
+        brightness_ +=
+            (pixel.r + pixel.g + pixel.b) / (3.0 * static_cast<double>(golden.mean.pixels.size()));
+}
 
 bool Judge::looks_at(std::size_t functional) const
 {
@@ -136,16 +141,62 @@ double Judge::level_of(const Finding& finding) const
 void Judge::compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
                           double skewed) const
 {
-    const double most_skewed =
-        std::max(skewed, std::abs(reference.skewness) / std::sqrt(reference.count));
-    finding.conclusive = most_skewed <= options_.skewness;
+    const double golden_skewed = std::abs(reference.skewness) / std::sqrt(reference.count);
+    finding.conclusive = std::max(skewed, golden_skewed) <= options_.skewness;
     const MeanEstimate expected = mean_estimate(reference);
-    finding.test = welch(candidate, expected, options_.rounding * std::abs(expected.mean));
+    finding.test = welch(candidate, expected, options_.rounding * size_of(finding, expected.mean));
     if (finding.conclusive && expected.mean > 0.0)
         finding.detectable = detectable_difference(std::sqrt(candidate.variance + expected.variance),
                                                    welch_degrees(candidate, expected), level_of(finding),
                                                    options_.power) /
                              expected.mean;
+    if (expected.mean > 0.0 && finding.region.kind == RegionKind::whole)
+        finding.reach = reach_of(finding, candidate, expected, skewed, golden_skewed);
+}
+
+double Judge::size_of(const Finding& finding, double mean) const
+{
+    if (mean != 0.0) return std::abs(mean);
+    // Black, where the functional is a plain sum: rounding there is that of colours as bright as the
+    // picture, which a conversion between colour spaces leaves behind.
+    return brightness_ * static_cast<double>(finding.region.pixels);
+}
+
+Reach Judge::reach_of(const Finding& finding, const MeanEstimate& candidate,
+                      const MeanEstimate& expected, double skewed, double golden_skewed) const
+{
+    const double level = level_of(finding);
+    // The relative error that a difference with standard error 1 shows.
+    const auto unit = [&](double degrees) {
+        return detectable_difference(1.0, degrees, level, options_.power) / expected.mean;
+    };
+    const auto allowed = [&](double degrees) { // variance of the difference
+        return std::pow(options_.specification / unit(degrees), 2.0);
+    };
+    const double room = allowed(expected.degrees);
+    const bool too_skewed = golden_skewed > options_.skewness;
+    Reach reach;
+    reach.limit = too_skewed ? without_end : std::sqrt(expected.variance) * unit(expected.degrees);
+    reach.golden =
+        std::max(2.0 * expected.variance / room, std::pow(golden_skewed / options_.skewness, 2.0));
+    reach.candidate = without_end;
+    if (too_skewed || !(room > expected.variance)) return reach;
+    // Variances fall with the number of batches, |skewness| / sqrt(B) with its root. The degrees of
+    // freedom of several pictures grow with it, those of one picture's pixels stay.
+    const auto enough = [&](double factor) {
+        const double degrees = method_ == Method::welch
+                                   ? std::max(1.0, (candidate.degrees + 1.0) * factor - 1.0)
+                                   : candidate.degrees;
+        const MeanEstimate more{candidate.mean, candidate.variance / factor, degrees};
+        return more.variance + expected.variance <= allowed(welch_degrees(more, expected));
+    };
+    constexpr double smallest = 1e-12;
+    constexpr double largest = 1e12;
+    // So many would do with as many degrees as there can be.
+    double factor = std::max(smallest, candidate.variance / (room - expected.variance));
+    while (factor < largest && !enough(factor)) factor *= 1.1;
+    reach.candidate = std::max(factor, std::pow(skewed / options_.skewness, 2.0));
+    return reach;
 }
 
 void Judge::finish(Finding& finding, const MeanEstimate& candidate, const MeanEstimate& reference) const

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,12 +28,23 @@ struct CompareOptions {
     double accuse = 0.05;         // chance that a right picture's first stage finds something to confirm
     double confirm = 1e-7;        // level of each later stage, at which one suspicion alone is tested
     double convict = 1e-8;        // level at which one stage is enough for FAIL
+    double dark = 1e-9;           // level at which pixels that are too dark are enough for FAIL
     double specification = 0.005; // relative error of the whole picture that must be detectable to pass
     double power = 0.99;          // with this probability
     double confidence = 0.99;     // of the intervals of ratios
     double rounding = 2e-6;       // relative difference that is put down to single precision
     double skewness = 0.15;       // |skewness| / sqrt(batches) up to which a t test is believed
     std::vector<std::uint64_t> stages = {64, 256}; // batches of each
+};
+
+/// How far more samples lead: the candidate's noise vanishes with them, the golden's stays.
+struct Reach {
+    double limit = std::numeric_limits<double>::quiet_NaN(); // `detectable` of a candidate without noise
+    /// So many times the candidate's batches show an error of the specified size; infinite if the
+    /// golden's noise hides it.
+    double candidate = std::numeric_limits<double>::quiet_NaN();
+    /// So many times the golden's batches leave half of the noise that is allowed to the candidate.
+    double golden = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What the first stage says about one region, seen through one weight in one channel.
@@ -47,6 +59,7 @@ struct Finding {
     double ratio;           // candidate / golden, of the functional's values; NaN where the golden is 0
     Interval interval;      // of the ratio
     double detectable;      // smallest relative error found with the stated power; NaN if not defined
+    Reach reach = {};       // of the whole picture, by t tests
 };
 
 /// "green of tile x 16..31, y 0..15 (matched)"
@@ -95,6 +108,11 @@ private:
     [[nodiscard]] double level_of(const Finding& finding) const;
     void compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
                        double skewed) const;
+    /// Of what a functional of this mean adds up, for a relative tolerance.
+    [[nodiscard]] double size_of(const Finding& finding, double mean) const;
+    [[nodiscard]] Reach reach_of(const Finding& finding, const MeanEstimate& candidate,
+                                 const MeanEstimate& expected, double skewed,
+                                 double golden_skewed) const;
     void finish(Finding& finding, const MeanEstimate& candidate, const MeanEstimate& reference) const;
 
     const Golden& golden_;
@@ -102,6 +120,7 @@ private:
     Method method_;
     const CompareOptions& options_;
     Multiplicity multiplicity_;
+    double brightness_ = 0.0; // the golden's mean, over pixels and channels
 };
 
 /// One functional of several batches, in its own units.

@@ -1,4 +1,5 @@
 #include "golden/functionals.h"
+#include "golden/non_finite.h"
 
 #include <glm/geometric.hpp>
 #include <half.h>
@@ -265,9 +266,7 @@ void Functionals::check(const Image& batch) const
         throw std::invalid_argument("has " + std::to_string(batch.width) + "x" +
                                     std::to_string(batch.height) + " pixels, the golden " +
                                     std::to_string(width()) + "x" + std::to_string(height()));
-    if (const auto place = first_non_finite(batch))
-        throw std::invalid_argument("pixel (" + std::to_string(place->x) + ", " +
-                                    std::to_string(place->y) + ") is NaN or infinite");
+    if (const auto fault = say_non_finite(batch)) throw std::invalid_argument(*fault);
 }
 
 double Functionals::bounded(std::size_t pixel, int channel, double value) const

@@ -1,6 +1,7 @@
 #include "golden/golden.h"
 
 #include "golden/image_error.h"
+#include "golden/non_finite.h"
 
 #include <charconv>
 #include <cmath>
@@ -130,6 +131,15 @@ Functionals read_functionals(const fs::path& path, const ExrPicture& picture)
 
 } // namespace
 
+double batch_size_of(const Golden& golden)
+{
+    const auto found = golden.metadata.find("batch_size");
+    double number = 0.0;
+    if (found != golden.metadata.end())
+        std::from_chars(found->second.data(), found->second.data() + found->second.size(), number);
+    return number > 0.0 ? number : 0.0;
+}
+
 Golden read_golden(const fs::path& path)
 {
     ExrPicture picture = read_exr(path);
@@ -177,10 +187,8 @@ GoldenMaker GoldenMaker::resume(const fs::path& path)
 
 void GoldenMaker::add_batch(const Image& batch)
 {
-    if (const auto place = first_non_finite(batch))
-        throw std::invalid_argument("batch " + std::to_string(film_.batches()) + ": pixel (" +
-                                    std::to_string(place->x) + ", " + std::to_string(place->y) +
-                                    ") is NaN or infinite");
+    if (const auto fault = say_non_finite(batch))
+        throw std::invalid_argument("batch " + std::to_string(film_.batches()) + ": " + *fault);
     Row row;
     if (functionals_) row = functionals_->evaluate(batch);
     if (functionals_ && reference_.empty()) slopes_ = functionals_->slopes(batch);

@@ -31,7 +31,16 @@ struct Golden {
     Functionals functionals;
     std::vector<Row> reference; // the functionals of each batch after the pilot
     Row slopes;                 // see Functionals::slopes, of the first of these batches
+
+    /// The pilot's and the reference's together: those of `mean`.
+    [[nodiscard]] std::uint64_t batches() const
+    {
+        return functionals.pilot().batches + reference.size();
+    }
 };
+
+/// Samples per pixel in a batch, as the golden's metadata say; 0 if they do not say.
+double batch_size_of(const Golden& golden);
 
 /// Reads a golden. Throws ImageError for what is none, with the reason.
 Golden read_golden(const std::filesystem::path& path);

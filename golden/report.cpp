@@ -2,6 +2,7 @@
 #include "golden/atomic_file.h"
 #include "golden/flip.h"
 #include "golden/png.h"
+#include "golden/reason.h"
 #include "golden/report_page.h" // page_template, made from report_page.html
 #include "golden/strategy_sheet.h"
 
@@ -103,6 +104,7 @@ std::string number(const char* format, double value)
 std::vector<std::string> summary_of(const Comparison& comparison)
 {
     std::vector<std::string> lines;
+    for (const OddPixels& odd : comparison.odd) lines.push_back(describe(odd) + ".");
     lines.push_back("Method: " + describe(comparison.method) + ". " +
                     std::to_string(comparison.stages.empty() ? 0 : comparison.stages.front().batches) +
                     " batches of the candidate against " + std::to_string(comparison.golden_batches) +
@@ -123,27 +125,48 @@ std::vector<std::string> summary_of(const Comparison& comparison)
                         " would have been seen for certain.");
     }
     if (comparison.noise_ratio)
-        lines.push_back("The picture's own noise is " + number("%.2f", *comparison.noise_ratio) +
-                        " times what its samples were assumed to have.");
+        lines.push_back("The picture's own noise is " + say_noise(comparison) + ".");
+    if (const std::string limit = say_golden_limit(comparison); !limit.empty())
+        lines.push_back("The golden: " + limit + ".");
     return lines;
+}
+
+Json json_of(const OddPixels& odd)
+{
+    Json json = {{"kind", describe(odd.kind)}, {"pixels", odd.pixels.size()}, {"x", odd.place.x},
+                 {"y", odd.place.y},           {"channel", odd.channel},      {"value", odd.value},
+                 {"golden", odd.expected},     {"wrong", odd.wrong}};
+    if (odd.picture) json["picture"] = *odd.picture;
+    return json;
+}
+
+/// What would show an error of the specified size; null for what no number does.
+Json needed_by(const Comparison& comparison)
+{
+    const double candidate = comparison.shortfall->candidate;
+    const double golden = comparison.shortfall->golden;
+    const double size = comparison.batch_size;
+    if (comparison.method == Method::welch) return {{"pictures", candidate}, {"golden_batches", golden}};
+    if (!(size > 0.0)) return {{"batches", candidate}, {"golden_batches", golden}};
+    return {{"samples", candidate * size}, {"golden_samples", golden * size}};
 }
 
 Json numbers_of(const Report& report)
 {
     const Comparison& comparison = report.comparison;
-    Json json = {{"verdict", describe(comparison.verdict)},
-                 {"reason", comparison.reason},
-                 {"method", describe(comparison.method)},
-                 {"p", comparison.p},
-                 {"coverage", comparison.coverage},
-                 {"detectable", comparison.detectable},
-                 {"golden_batches", comparison.golden_batches},
-                 {"summary", summary_of(comparison)},
-                 {"width", report.golden.mean.width},
-                 {"height", report.golden.mean.height},
-                 {"golden", report.golden.metadata},
-                 {"candidate", report.candidate_metadata}};
+    Json json = {
+        {"verdict", describe(comparison.verdict)}, {"reason", comparison.reason},
+        {"method", describe(comparison.method)},   {"p", comparison.p},
+        {"coverage", comparison.coverage},         {"detectable", comparison.detectable},
+        {"golden_limit", comparison.golden_limit}, {"golden_batches", comparison.golden_batches},
+        {"summary", summary_of(comparison)},       {"width", report.golden.mean.width},
+        {"height", report.golden.mean.height},     {"golden", report.golden.metadata},
+        {"candidate", report.candidate_metadata}};
     if (comparison.noise_ratio) json["noise_ratio"] = *comparison.noise_ratio;
+    if (comparison.noise_error) json["noise_error"] = *comparison.noise_error;
+    if (comparison.shortfall) json["needed"] = needed_by(comparison);
+    json["odd_pixels"] = Json::array();
+    for (const OddPixels& odd : comparison.odd) json["odd_pixels"].push_back(json_of(odd));
     json["whole"] = Json::array();
     json["tiles"] = Json::array();
     json["stages"] = Json::array();

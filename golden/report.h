@@ -20,8 +20,9 @@ struct Report {
     Layers strategies = {}; // of the candidate, by the names of ref::layer_name: "s2t3"; may be empty
 };
 
-/// One JSON object: verdict, reason, p, per channel ratio, interval and smallest detectable error, all
-/// findings, the tiles' z, stages, and the metadata of both pictures. What is not a number is null.
+/// One JSON object: verdict, reason, p, per channel ratio, interval, smallest detectable error and what
+/// the golden hides, odd pixels, all findings, the tiles' z, stages, and the metadata of both pictures.
+/// What is not a number is null.
 std::string report_json(const Report& report);
 
 /// A self-contained HTML page: the numbers of report_json, both pictures under one slider with zoom and

@@ -1,11 +1,11 @@
 #include "golden/verdict.h"
+#include "golden/reason.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 namespace golden {
@@ -93,32 +93,27 @@ void summarise(Comparison& comparison)
     if (comparison.suspicion) comparison.p = findings[*comparison.suspicion].adjusted_p;
 }
 
-std::string say_percent(double fraction)
+void summarise_reach(Comparison& comparison, const Golden& golden, const CompareOptions& options)
 {
-    std::ostringstream text;
-    text.precision(2);
-    text << 100.0 * fraction << "%";
-    return text.str();
-}
-
-std::string say(double number, int digits)
-{
-    std::ostringstream text;
-    text.precision(digits);
-    text << number;
-    return text.str();
-}
-
-std::string say_suspicion(const Comparison& comparison)
-{
-    const Finding& finding = comparison.findings[*comparison.suspicion];
-    std::string text = describe(finding);
-    if (is_linear(finding.weight) && !std::isnan(finding.ratio))
-        text += " is " + say(finding.ratio, 4) + " times the golden's (" + say(finding.interval.low, 4) +
-                " to " + say(finding.interval.high, 4) + ")";
-    else
-        text += finding.test.z > 0.0 ? " is brighter than the golden's" : " is darker than the golden's";
-    return text + ", p = " + say(comparison.p, 2);
+    comparison.golden_limit.fill(undefined);
+    comparison.shortfall.reset();
+    for (std::size_t c = 0; c < channel_count; ++c) {
+        Reach best;
+        for (const Finding& finding : comparison.findings) {
+            if (finding.channel != c || finding.region.kind != RegionKind::whole) continue;
+            best.limit = std::fmin(best.limit, finding.reach.limit);
+            best.candidate = std::fmin(best.candidate, finding.reach.candidate);
+            best.golden = std::fmin(best.golden, finding.reach.golden);
+        }
+        comparison.golden_limit[c] = best.limit;
+        if (!(comparison.detectable[c] > options.specification) || std::isnan(best.limit)) continue;
+        const Shortfall found{best.candidate * comparison.candidate_batches,
+                              static_cast<double>(golden.functionals.pilot().batches) +
+                                  best.golden * static_cast<double>(golden.reference.size())};
+        if (!comparison.shortfall) comparison.shortfall = found;
+        comparison.shortfall->candidate = std::max(comparison.shortfall->candidate, found.candidate);
+        comparison.shortfall->golden = std::max(comparison.shortfall->golden, found.golden);
+    }
 }
 
 void acquit(Comparison& comparison, const CompareOptions& options, const std::string& remark)
@@ -128,31 +123,38 @@ void acquit(Comparison& comparison, const CompareOptions& options, const std::st
     const std::string where = channel ? std::string(" in ") + channel_names[*channel] : "";
     if (detectable > options.specification) {
         comparison.verdict = Verdict::inconclusive;
-        comparison.reason = "No difference found, but ";
-        comparison.reason +=
-            std::isinf(detectable)
-                ? "no error of the whole picture" + where + " could have been found for certain"
-                : "only an error of " + say_percent(detectable) + " of the whole picture" + where +
-                      " would have been";
-        comparison.reason +=
-            " (required: " + say_percent(options.specification) + "): more samples are needed." + remark;
+        std::string text = "No difference found, but ";
+        text += std::isinf(detectable)
+                    ? "no error of the whole picture" + where + " could have been found for certain"
+                    : "only an error of " + say_percent(detectable) + " of the whole picture" + where +
+                          " would have been";
+        text += " (required: " + say_percent(options.specification) + "): ";
+        give_reason(comparison, text + say_shortfall(comparison) + "." + remark);
         return;
     }
     comparison.verdict = Verdict::pass;
-    comparison.reason = channel ? "No difference found; an error of " + say_percent(detectable) +
-                                      " of the whole picture would have been, with " +
-                                      say_percent(options.power) + " probability." + remark
-                                : "Both pictures are black." + remark;
+    give_reason(comparison, channel ? "No difference found; an error of " + say_percent(detectable) +
+                                          " of the whole picture would have been, with " +
+                                          say_percent(options.power) + " probability." + remark
+                                    : "Both pictures are black." + remark);
 }
 
 void convict(Comparison& comparison, const std::string& how)
 {
     comparison.verdict = Verdict::fail;
-    comparison.reason = say_suspicion(comparison) + how + ".";
+    give_reason(comparison, say_suspicion(comparison) + how + ".");
 }
 
 bool decide_at_once(Comparison& comparison, const CompareOptions& options)
 {
+    if (std::any_of(comparison.odd.begin(), comparison.odd.end(),
+                    [](const OddPixels& odd) { return odd.wrong; })) {
+        comparison.verdict = Verdict::fail;
+        give_reason(comparison, comparison.p < options.accuse
+                                    ? "Besides, " + say_suspicion(comparison) + "."
+                                    : std::string());
+        return true;
+    }
     if (comparison.p >= options.accuse) {
         acquit(comparison, options);
         return true;
@@ -162,6 +164,25 @@ bool decide_at_once(Comparison& comparison, const CompareOptions& options)
         return true;
     }
     return false;
+}
+
+void decide_without(Comparison& comparison, const Comparison& without, const CompareOptions& options)
+{
+    comparison.false_alarm += options.convict;
+    const std::string them = bright_pixels(comparison.odd).size() == 1 ? "it" : "them";
+    // Without its bright pixels a picture is darker than it was: that proves nothing. Brighter does.
+    if (without.p < options.convict && without.findings[*without.suspicion].test.z > 0.0) {
+        comparison.verdict = Verdict::fail;
+        give_reason(comparison, "Without " + them + ", " + say_suspicion(without) + ", beyond doubt.");
+        return;
+    }
+    const bool blind = std::any_of(comparison.detectable.begin(), comparison.detectable.end(),
+                                   [](double error) { return std::isinf(error); });
+    const bool only_they_hinder = without.verdict == Verdict::pass;
+    if (!only_they_hinder && (!blind || without.p < options.accuse)) return;
+    give_reason(comparison, "Without " + them + ": " + without.reason +
+                                " Another picture, with another seed, shows which it is: a rare bright "
+                                "sample moves, a defect stays where it is.");
 }
 
 } // namespace golden

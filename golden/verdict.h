@@ -1,6 +1,6 @@
 #pragma once
 
-// From findings to a verdict, and to the sentences that give its reason.
+// From findings to a verdict.
 
 #include "golden/compare.h"
 
@@ -11,12 +11,9 @@ namespace golden {
 /// Fills in what follows from the findings: suspicion, p, what is detectable, coverage.
 void summarise(Comparison& comparison);
 
-/// A number or a fraction in percent with a few digits.
-std::string say(double number, int digits);
-std::string say_percent(double fraction);
-
-/// "green of tile ... is 0.98 times the golden's (0.97 to 0.99), p = 1e-7"
-std::string say_suspicion(const Comparison& comparison);
+/// Fills in, from the findings of t tests, how far more samples than comparison.candidate_batches would
+/// lead: golden_limit and shortfall. After summarise.
+void summarise_reach(Comparison& comparison, const Golden& golden, const CompareOptions& options);
 
 /// The verdict where nothing is found: PASS if an error of the specified size would have been,
 /// INCONCLUSIVE if not. `remark` ends the reason.
@@ -27,5 +24,10 @@ void convict(Comparison& comparison, const std::string& how);
 
 /// The verdict of the first stage if it is already certain; false if the suspicion needs another look.
 bool decide_at_once(Comparison& comparison, const CompareOptions& options);
+
+/// Decides on a picture that was inconclusive and has a few pixels far brighter than the golden's, by
+/// the comparison `without` them: FAIL if that is too bright all the same. Else it stays INCONCLUSIVE,
+/// and the reason says what is found without them if they were what hindered.
+void decide_without(Comparison& comparison, const Comparison& without, const CompareOptions& options);
 
 } // namespace golden

@@ -41,6 +41,32 @@ INSTANTIATE_TEST_SUITE_P(Noises, FalseAlarm, ::testing::ValuesIn(noises), [](con
     return text;
 });
 
+/// A single picture, of which the noise must be guessed: whether it has fewer samples than its golden or
+/// many more. What pictures of one golden have in common is its error, so each has a golden of its own.
+TEST_P(FalseAlarm, OfASinglePictureIsRareHoweverManySamplesItHas)
+{
+    const SimulatedRenderer renderer(32, GetParam());
+    for (const std::uint64_t batches : {16u, 128u, 1024u}) {
+        int suspected = 0;
+        for (std::uint64_t trial = 0; trial < 16; ++trial) {
+            golden::GoldenMaker maker(32, 32, 64);
+            for (std::uint64_t batch = 0; batch < 64 + 128; ++batch)
+                maker.add_batch(renderer.render(1000 + trial, batch));
+            golden::Film film(32, 32);
+            for (std::uint64_t batch = 0; batch < batches; ++batch)
+                film.add_batch(renderer.render(2000 + trial, batch));
+            const golden::CompareOptions options;
+            const golden::Comparison comparison =
+                golden::compare_picture(maker.golden({{"batch_size", "4"}}), film.mean(),
+                                        4.0 * static_cast<double>(batches), options);
+            suspected += comparison.p < options.accuse;
+            EXPECT_NE(comparison.verdict, golden::Verdict::fail) << comparison.reason;
+        }
+        // 5 of 16 have a chance of 1e-3 at 5%, and that is a bound.
+        EXPECT_LT(suspected, 5) << batches;
+    }
+}
+
 // Each of these powers is 0.97 at least in the long version; of 8 trials 2 fail with a chance of 2%, and
 // 3 with one of 0.1%.
 TEST(Power, FindsAPercentEverywhere)

@@ -131,6 +131,117 @@ TEST_F(CompareCommand, TooFewSamplesAreInconclusive)
     EXPECT_EQ(outcome.out.rfind("INCONCLUSIVE", 0), 0u) << outcome.out;
 }
 
+TEST_F(CompareCommand, TooFewSamplesAreAskedForByNumber)
+{
+    const Outcome few = compare({scene_file("directional_over_plane")}, {"-s", "64", "--seed", "7"});
+    EXPECT_EQ(few.status, 3) << few.err << few.out;
+    const std::string instead = " samples per pixel are needed instead of 64.";
+    const std::size_t end = few.out.find(instead);
+    ASSERT_NE(end, std::string::npos) << few.out;
+    const std::string needed = few.out.substr(few.out.rfind(' ', end - 1) + 1);
+    const Outcome enough = compare({scene_file("directional_over_plane")},
+                                   {"-s", needed.substr(0, needed.find(' ')), "--seed", "7"});
+    EXPECT_EQ(enough.status, 0) << needed << enough.err << enough.out;
+}
+
+TEST_F(CompareCommand, PicturesThatAreNotIndependentAreRefused)
+{
+    render(candidate, {"--integrator", "bdpt", "--seed", "3"});
+    const std::string other = (folder / "other.exr").string();
+    render(other, {"--integrator", "bdpt", "--seed", "4"});
+    const std::string copy = altered(1.0); // says nothing about itself
+    const std::string again = (folder / "again.pfm").string();
+    std::filesystem::copy_file(copy, again);
+    for (const auto& [files, complaint] :
+         {std::pair(Arguments{candidate, candidate}, "candidate.exr have the same seed, 3"),
+          {Arguments{copy, copy}, "are equal in all pixels: they are not independent"},
+          {Arguments{copy, again}, "are equal in all pixels: they are not independent"},
+          {Arguments{other, copy, again}, "have the same noise"},
+          {Arguments{golden_file}, "golden's own seed"},
+          {Arguments{golden_file, candidate}, "golden's own seed"}}) {
+        const Outcome outcome = compare(files);
+        EXPECT_EQ(outcome.status, 2) << outcome.out;
+        EXPECT_NE(outcome.err.find(complaint), std::string::npos) << complaint << '\n' << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+    }
+    const Outcome outcome = compare({copy, again});
+    EXPECT_NE(outcome.err.find("Does the renderer ignore its seed?"), std::string::npos) << outcome.err;
+    // The golden's own pixels, without its metadata.
+    const std::string pixels = (folder / "pixels.pfm").string();
+    golden::write_pfm(pixels, golden::read_exr(golden_file).mean);
+    const Outcome own = compare({pixels}, {"-s", "768"});
+    EXPECT_EQ(own.status, 2);
+    EXPECT_NE(own.err.find("pixels.pfm: has the golden's own noise"), std::string::npos) << own.err;
+}
+
+TEST_F(CompareCommand, OddPixelsAreNamedBeforeAllStatistics)
+{
+    render(candidate, {"--integrator", "bdpt"});
+    golden::Image image = golden::read_exr(candidate).mean;
+    image.at(3, 12).g = -5.0;
+    image.at(9, 13).r = 200.0;
+    const std::string odd = (folder / "odd.pfm").string();
+    golden::write_pfm(odd, image);
+    const Outcome outcome = compare({odd}, {"-s", "512"});
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_EQ(outcome.out.rfind("FAIL  1 pixel is negative, which radiance cannot be: green of pixel "
+                                "(3, 12) is -5. 1 pixel is far brighter than the golden: red of pixel "
+                                "(9, 13) is 200,",
+                                0),
+              0u)
+        << outcome.out;
+    const auto json = nlohmann::json::parse(compare({odd}, {"-s", "512", "--json"}).out);
+    ASSERT_EQ(json.at("odd_pixels").size(), 2u);
+    EXPECT_EQ(json.at("odd_pixels")[0].at("kind"), "negative");
+    EXPECT_EQ(json.at("odd_pixels")[0].at("x"), 3);
+    EXPECT_EQ(json.at("odd_pixels")[0].at("y"), 12);
+    EXPECT_EQ(json.at("odd_pixels")[0].at("value"), -5.0);
+}
+
+TEST_F(CompareCommand, PathsOfAnotherLengthAreNamed)
+{
+    // What says so itself is refused; of what does not, the golden's length is told.
+    ASSERT_EQ(run({"render", scene_file("directional_over_plane"), "-o", candidate, "--size", "16x16",
+                   "--max-edges", "2"})
+                  .status,
+              0);
+    const Outcome ours = compare({candidate});
+    EXPECT_EQ(ours.status, 2);
+    EXPECT_NE(ours.err.find("candidate.exr: its greatest path length is 2, the golden's is 6"),
+              std::string::npos)
+        << ours.err;
+    render(candidate, {"--integrator", "bdpt"});
+    const Outcome brighter = compare({altered(1.125)}, {"-s", "512"});
+    EXPECT_EQ(brighter.status, 1);
+    EXPECT_NE(brighter.out.find("The golden's paths have at most 6 edges"), std::string::npos)
+        << brighter.out;
+}
+
+TEST_F(CompareCommand, ALayerIsChosenByName)
+{
+    // The picture as a layer beside another one, as renderers write that have several.
+    render(candidate, {"--integrator", "bdpt"});
+    const golden::Image image = golden::read_exr(candidate).mean;
+    golden::Film darker(image.width, image.height);
+    darker.add_batch(golden::Image(image.width, image.height));
+    const std::string layers = (folder / "layers.exr").string();
+    golden::write_exr(layers, darker, {}, {{"View.Combined", image}}, golden::FilmState::omit);
+    EXPECT_EQ(compare({layers}, {"-s", "512"}).status, 1); // black
+    const Outcome chosen = compare({layers}, {"-s", "512", "--layer", "View.Combined"});
+    EXPECT_EQ(chosen.status, 0) << chosen.out << chosen.err;
+    const Outcome none = compare({layers}, {"-s", "512", "--layer", "Combined"});
+    EXPECT_EQ(none.status, 2);
+    EXPECT_NE(
+        none.err.find("has no layer Combined of R, G and B; choose one of its layers: View.Combined"),
+        std::string::npos)
+        << none.err;
+    render(candidate, {"--integrator", "bdpt", "--keep-batches"});
+    const Outcome batch = compare({candidate}, {"--layer", "batch.0001"});
+    EXPECT_EQ(batch.status, 2);
+    EXPECT_NE(batch.err.find("is one batch: give its samples by -s"), std::string::npos) << batch.err;
+}
+
 TEST_F(CompareCommand, PrintsOneJsonObject)
 {
     render(candidate, {"--integrator", "bdpt", "--keep-batches"});
@@ -143,6 +254,8 @@ TEST_F(CompareCommand, PrintsOneJsonObject)
     EXPECT_LE(json.at("whole")[0].at("low"), json.at("whole")[0].at("ratio"));
     EXPECT_LE(json.at("whole")[0].at("ratio"), json.at("whole")[0].at("high"));
     EXPECT_LE(json.at("detectable")[0], 0.005);
+    EXPECT_LT(json.at("golden_limit")[0], json.at("detectable")[0]);
+    EXPECT_EQ(json.at("odd_pixels").size(), 0u);
     EXPECT_EQ(json.at("tiles")[0].at("z").size(), json.at("tiles")[0].at("columns").get<std::size_t>() *
                                                       json.at("tiles")[0].at("rows").get<std::size_t>());
 }
@@ -193,6 +306,8 @@ TEST_F(CompareCommand, WhatCannotBeComparedIsSaidInOneLine)
         {{"compare", other_size, golden_file}, "8x8"},
         {{"compare", other_scene, golden_file}, "scene"},
         {{"compare", not_a_number, golden_file, "-s", "4"}, "(3, 4)"},
+        {{"compare", plain, golden_file, "-s", "4", "--layer", "a"}, "--layer"},
+        {{"compare", scene_file("directional_over_plane"), golden_file, "--layer", "a"}, "--layer"},
         {{"compare", candidate, golden_file, "--report", "page.txt"}, "--report"},
         {{"compare", candidate, golden_file, "--report", "/nowhere/page.html"}, "/nowhere"},
         {{"compare", scene_file("spot_over_plane"), golden_file}, "scene"},

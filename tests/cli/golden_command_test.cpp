@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace {
 
 using namespace cli_test;
@@ -56,13 +58,98 @@ TEST_F(GoldenCommand, NeverReplacesAnotherGolden)
 {
     ASSERT_EQ(run(golden()).status, 0);
     const std::string bytes = read_bytes(file);
-    for (const auto& [other, complaint] : {std::pair(golden("128"), "remove the file"),
-                                           {golden("64", {"--max-edges", "3"}), "max_edges"}}) {
+    const auto with = [&](const std::string& option, const std::string& value) {
+        Arguments arguments = golden();
+        const auto found = std::find(arguments.begin(), arguments.end(), option);
+        if (found == arguments.end()) return arguments + Arguments{option, value};
+        *(found + 1) = value;
+        return arguments;
+    };
+    for (const auto& [other, complaint] :
+         {std::pair(with("-s", "128"), "its number of samples is 64, not 128 (-s)"),
+          {with("--size", "24x8"), "its size is 12x8, not 24x8 (--size)"},
+          {with("--batch", "8"), "its batch_size is 4, not 8 (--batch)"},
+          {with("--pilot", "5"), "its number of pilot batches is 4, not 5 (--pilot)"},
+          {with("--max-edges", "3"), "its max_edges is 6, not 3 (--max-edges)"}}) {
         const Outcome outcome = run(other);
-        EXPECT_EQ(outcome.status, 2);
-        EXPECT_NE(outcome.err.find(complaint), std::string::npos) << outcome.err;
+        EXPECT_EQ(outcome.status, 2) << complaint << outcome.out;
+        EXPECT_NE(outcome.err.find(complaint), std::string::npos) << complaint << '\n' << outcome.err;
+        EXPECT_NE(outcome.err.find("remove the file"), std::string::npos) << outcome.err;
+    }
+    // All differences at once.
+    Arguments two = with("--size", "24x8");
+    two = two + Arguments{"--max-edges", "3"};
+    const std::string both = run(two).err;
+    EXPECT_NE(both.find("--size"), std::string::npos) << both;
+    EXPECT_NE(both.find("--max-edges"), std::string::npos) << both;
+    EXPECT_TRUE(read_bytes(file) == bytes);
+}
+
+TEST_F(GoldenCommand, NeverGoesOnFromAnotherOne)
+{
+    Process process(golden("2147483648", {"--watch", "0"}));
+    ASSERT_TRUE(eventually([&] {
+        return std::filesystem::exists(file) &&
+               std::stoull(golden::read_exr(file).metadata.at("samples")) > 20;
+    }));
+    process.send(SIGINT);
+    ASSERT_EQ(process.finish().status, 130);
+    const std::string bytes = read_bytes(file);
+    const std::string held = golden::read_exr(file).metadata.at("samples");
+    const std::string more = std::to_string(std::stoull(held) + 64);
+    Arguments other_size = golden(more);
+    std::replace(other_size.begin(), other_size.end(), std::string("12x8"), std::string("24x8"));
+    Arguments other_pilot = golden(more);
+    *(std::find(other_pilot.begin(), other_pilot.end(), "--pilot") + 1) = "5";
+    for (const auto& [other, complaint] :
+         {std::pair(other_size, std::string("its size is 12x8, not 24x8 (--size)")),
+          {other_pilot, "its number of pilot batches is 4, not 5 (--pilot)"},
+          {golden(more, {"--max-edges", "3"}), "its max_edges is 6, not 3 (--max-edges)"},
+          {golden("20"), "it has " + held + " samples already, more than 20 (-s)"}}) {
+        const Outcome outcome = run(other);
+        EXPECT_EQ(outcome.status, 2) << complaint << outcome.out;
+        EXPECT_NE(outcome.err.find(complaint), std::string::npos) << complaint << '\n' << outcome.err;
     }
     EXPECT_TRUE(read_bytes(file) == bytes);
+}
+
+TEST_F(GoldenCommand, OptionsThatAreGivenMustBeThoseOfAGoldenThatIsCheckedOrListed)
+{
+    ASSERT_EQ(run(golden()).status, 0);
+    const Arguments in_folder = {"golden", scene_file("cornell_glass"), "--folder",
+                                 folder.path().string()};
+    for (const Arguments& what : {Arguments{"--list"}, Arguments{"--verify", "1"}}) {
+        EXPECT_EQ(run(in_folder + what).status, 0);
+        const Outcome outcome = run(in_folder + what + Arguments{"--size", "64x64"});
+        EXPECT_EQ(outcome.status, 2) << outcome.out;
+        EXPECT_NE(outcome.err.find("its size is 12x8, not 64x64 (--size)"), std::string::npos)
+            << outcome.err;
+        EXPECT_EQ(run(in_folder + what + Arguments{"--watch", "3"}).status, 2);
+    }
+}
+
+TEST_F(GoldenCommand, FindsAllScenesOfAFolderFromAnywhere)
+{
+    const TemporaryFolder scenes;
+    std::filesystem::copy_file(scene_file("cornell_glass"), scenes / "cornell_glass.dae");
+    std::filesystem::copy_file(scene_file("furnace"), scenes / "furnace.dae");
+    const Outcome list = run({"golden", "--all", "--list", "--scene-folder", scenes.path().string(),
+                              "--folder", folder.path().string()});
+    EXPECT_EQ(list.status, 0) << list.err;
+    EXPECT_NE(list.out.find("cornell_glass"), std::string::npos) << list.out;
+    EXPECT_NE(list.out.find("furnace "), std::string::npos) << list.out;
+
+    const TemporaryFolder empty;
+    const std::string nowhere = (empty / "none").string();
+    for (const auto& [where, complaint] :
+         {std::pair(empty.path().string(), " holds no .dae"), {nowhere, " is no folder"}}) {
+        const Outcome outcome = run({"golden", "--all", "--scene-folder", where});
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_NE(outcome.err.find("--all: " + where + complaint), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("--scene-folder"), std::string::npos) << outcome.err;
+    }
+    EXPECT_EQ(run({"golden", scene_file("furnace"), "--scene-folder", nowhere}).status, 2);
+    EXPECT_EQ(folder.entries(), 0u);
 }
 
 TEST_F(GoldenCommand, InterruptedAndResumedGivesTheBitsOfAnUninterruptedRun)

@@ -18,6 +18,7 @@
 #include <ImfStringAttribute.h>
 #include <ImfTiledOutputFile.h>
 
+#include <array>
 #include <vector>
 
 namespace {
@@ -164,6 +165,41 @@ TEST(ForeignExr, ChannelsThatAreMissingOrSubsampledAreNamed)
         coarse.channels().insert(name, Imf::Channel(Imf::HALF, *name == 'G' ? 2 : 1, 1));
     Imf::OutputFile((folder / "coarse.exr").c_str(), coarse);
     EXPECT_EQ(error_of_reading(folder / "coarse.exr"), "channel G is subsampled");
+}
+
+TEST(ForeignExr, OneOfSeveralLayersIsChosenByName)
+{
+    // As renderers write that have a picture for each kind of light, and no R, G, B besides.
+    const TemporaryFolder folder;
+    const fs::path path = folder / "layers.exr";
+    Imf::Header header(2, 1);
+    Imf::FrameBuffer buffer;
+    std::vector<std::array<float, 2>> planes;
+    planes.reserve(6);
+    for (const char* name : {"View.Diffuse.R", "View.Diffuse.G", "View.Diffuse.B", "View.Gloss.R",
+                             "View.Gloss.G", "View.Gloss.B"}) {
+        const auto first = static_cast<float>(10 * planes.size());
+        planes.push_back({first, first + 1.0f});
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, planes.back().data(), Imath::V2i(0), 2, 1));
+    }
+    {
+        Imf::OutputFile file(path.c_str(), header);
+        file.setFrameBuffer(buffer);
+        file.writePixels(1);
+    }
+    const ExrPicture gloss = golden::read_exr(path, "View.Gloss");
+    EXPECT_EQ(gloss.mean.at(0, 0), golden::Rgb(30.0, 40.0, 50.0));
+    EXPECT_EQ(gloss.mean.at(1, 0), golden::Rgb(31.0, 41.0, 51.0));
+    EXPECT_EQ(gloss.layers.size(), 2u);
+    EXPECT_FALSE(gloss.film);
+    EXPECT_EQ(error_of_reading(path),
+              "has no R, G and B outside layers; choose one of its layers: View.Diffuse, View.Gloss");
+    const std::string none = error_of<ImageError>([&] { golden::read_exr(path, "Gloss"); });
+    EXPECT_NE(
+        none.find("has no layer Gloss of R, G and B; choose one of its layers: View.Diffuse, View."),
+        std::string::npos)
+        << none;
 }
 
 TEST(ForeignExr, SeveralPartsAndDeepDataAreRefused)

@@ -1,0 +1,68 @@
+#include "cli/scene_candidate.h"
+
+#include "cli/fast_render.h"
+#include "cli/golden.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cuda/transport/renderer.h"
+
+#include <cmath>
+#include <optional>
+#include <random>
+#include <utility>
+
+namespace cli {
+
+/// Whether batches of the two are distributed alike if both are right.
+bool same_estimator(const golden::Metadata& a, const golden::Metadata& b)
+{
+    for (const char* key : {"integrator", "heuristic", "batch_size", "max_edges", "roulette"})
+        if (value_of(a, key).empty() || value_of(a, key) != value_of(b, key)) return false;
+    return true;
+}
+
+Judged judge_scene(const golden::Golden& golden, const std::string& file,
+                   const CandidateOptions& options)
+{
+    RenderCommand command = render_of(golden, file);
+    if (!options.integrator.empty()) command.integrator = options.integrator;
+    command.threads = options.threads;
+    command.device = options.device;
+    const std::uint64_t seed = options.seed.value_or(std::random_device()());
+    const scenes::Scene scene = load_scene(file, command.frame, options.quiet);
+    command.seed = seed;
+    golden::Metadata metadata = describe(command, scene);
+    const golden::Method method =
+        same_estimator(metadata, golden.metadata) ? golden::Method::ranks : golden::Method::welch;
+    golden::check_comparable(golden, metadata, method);
+    const Size size = parse_size(command.size);
+    std::optional<ref::World> world;
+    if (command.device == "ref") world.emplace(scene, size.width, size.height);
+    golden::Image mean;
+    const auto render = [&](std::size_t stage, std::uint64_t batches, golden::Candidate& candidate) {
+        command.seed = seed + stage;
+        command.samples = batches * command.batch_size;
+        Progress progress(scene.name + ", stage " + std::to_string(stage + 1), 0.0,
+                          static_cast<double>(batches), options.quiet);
+        const ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
+        const auto fast = world ? nullptr : fast_renderer(command, scene);
+        for (std::uint64_t i = 0; i < batches; ++i) {
+            const auto batch = fast ? render_batch(*fast, command, i, monitor)
+                                    : ref::render_batch(*world, integrator_of(command),
+                                                        render_options(command), i, monitor);
+            if (!batch) throw Interrupted();
+            candidate.add_batch(*batch);
+        }
+        mean = candidate.film().mean();
+        metadata["samples"] = std::to_string(command.samples);
+    };
+    golden::CompareOptions stages;
+    if (options.samples) {
+        const double batches = std::ceil(*options.samples / command.batch_size);
+        stages.stages = {static_cast<std::uint64_t>(batches), 4 * static_cast<std::uint64_t>(batches)};
+    }
+    golden::Comparison comparison = golden::compare(golden, render, method, stages);
+    return {std::move(comparison), std::move(mean), std::move(metadata), {}};
+}
+
+} // namespace cli

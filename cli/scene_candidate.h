@@ -1,0 +1,21 @@
+#pragma once
+
+// A scene that `plumbline compare` renders itself.
+
+#include "cli/candidate.h"
+#include "golden/golden.h"
+
+#include <string>
+
+namespace cli {
+
+/// Whether batches of the two are distributed alike if both are right.
+bool same_estimator(const golden::Metadata& a, const golden::Metadata& b);
+
+/// Renders the scene in stages as the golden was rendered, but for what the options say, and judges it.
+/// The first stage has options.samples per pixel, rounded up to whole batches, a later one 4 times as
+/// many. Throws scenes::SceneError, std::invalid_argument, Interrupted.
+Judged judge_scene(const golden::Golden& golden, const std::string& file,
+                   const CandidateOptions& options);
+
+} // namespace cli

@@ -1,0 +1,152 @@
+// A single picture: its noise is told from the golden's, and more samples show more.
+
+#include "golden/reason.h"
+#include "tests/golden/simulated_golden.h"
+#include "tests/golden/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+namespace {
+
+using calibration::Noise;
+using calibration::SimulatedRenderer;
+using golden::Comparison;
+using golden::Image;
+using golden::Verdict;
+using golden_test::error_of;
+using golden_test::for_small_pictures;
+
+class ComparePicture : public golden_test::SimulatedGolden {};
+
+/// The golden has 3072 samples per pixel.
+TEST_F(ComparePicture, NoiseIsWhatItsSamplesLetExpectWhetherTheGoldenHasMoreOrLess)
+{
+    for (const std::uint64_t samples : {64u, 256u, 1024u, 4096u, 16384u}) {
+        const Comparison result = golden::compare_picture(
+            reference(), picture(samples / 4, 7), static_cast<double>(samples), for_small_pictures());
+        ASSERT_TRUE(result.noise_ratio && result.noise_error);
+        std::cout << samples << " samples: " << say_noise(result) << '\n';
+        // The largest of three channels, two of which are alike.
+        EXPECT_NEAR(*result.noise_ratio, 1.0, 3.0 * *result.noise_error) << samples;
+        // About as well known as from 1024 values: sqrt(2 / 1024) of both noises together. The noise in
+        // the caustic is skewed and counts for more.
+        const double both = 1.0 + static_cast<double>(samples) / 3072.0;
+        EXPECT_GT(*result.noise_error, 0.03 * both) << samples;
+        EXPECT_LT(*result.noise_error, 0.25 * both) << samples;
+    }
+}
+
+TEST_F(ComparePicture, NoisierThanItClaimsIsFoundOut)
+{
+    const Comparison result =
+        golden::compare_picture(reference(), picture(64, 7), 4.0 * 256, for_small_pictures());
+    EXPECT_NEAR(*result.noise_ratio, 4.0, 3.0 * *result.noise_error);
+    EXPECT_GT(*result.noise_ratio, 1.0 + 3.0 * *result.noise_error);
+}
+
+TEST_F(ComparePicture, MoreSamplesShowMoreUpToTheLimitThatTheGoldenSets)
+{
+    double previous = 1.0;
+    double at_last = 1.0;
+    for (const std::uint64_t samples : {64u, 256u, 1024u, 4096u, 16384u}) {
+        const Comparison result = golden::compare_picture(
+            reference(), picture(samples / 4, 7), static_cast<double>(samples), for_small_pictures());
+        EXPECT_EQ(result.verdict, samples < 256 ? Verdict::inconclusive : Verdict::pass)
+            << result.reason;
+        EXPECT_LT(result.detectable[0], 0.95 * previous) << samples;
+        EXPECT_GT(result.detectable[0], result.golden_limit[0]);
+        previous = result.detectable[0];
+        at_last = result.detectable[0] / result.golden_limit[0];
+        const bool at_the_limit = say_golden_limit(result).find("hardly help") != std::string::npos;
+        EXPECT_EQ(at_the_limit, samples >= 16384) << samples << ": " << say_golden_limit(result);
+    }
+    // A fifth of the golden's variance on top of it: a tenth in the standard error; and what is
+    // uncertain of the noise.
+    EXPECT_LT(at_last, 1.2);
+}
+
+TEST_F(ComparePicture, SaysHowManySamplesAreNeeded)
+{
+    golden::CompareOptions options;
+    options.specification = 0.01;
+    const Comparison few = golden::compare_picture(reference(), picture(16, 7), 64.0, options);
+    ASSERT_EQ(few.verdict, Verdict::inconclusive);
+    ASSERT_TRUE(few.shortfall);
+    const double needed = few.shortfall->candidate * 4.0;
+    EXPECT_GT(needed, 64.0);
+    EXPECT_LT(needed, 4096.0);
+    EXPECT_NE(few.reason.find(" samples per pixel are needed instead of 64."), std::string::npos)
+        << few.reason;
+    // With as many it can be seen; with half of them not.
+    const auto with = [&](double samples) {
+        const auto batches = static_cast<std::uint64_t>(std::ceil(samples / 4.0));
+        return golden::compare_picture(reference(), picture(batches, 7),
+                                       4.0 * static_cast<double>(batches), options);
+    };
+    EXPECT_EQ(with(1.2 * needed).verdict, Verdict::pass) << with(1.2 * needed).reason;
+    EXPECT_EQ(with(needed / 2.0).verdict, Verdict::inconclusive);
+}
+
+TEST_F(ComparePicture, WhereTheGoldenIsTheLimitSaysHowLongAGoldenIsNeeded)
+{
+    golden::CompareOptions options;
+    options.specification = 0.002;
+    const Comparison result = golden::compare_picture(reference(), picture(1024, 7), 4096.0, options);
+    ASSERT_EQ(result.verdict, Verdict::inconclusive);
+    ASSERT_TRUE(result.shortfall);
+    EXPECT_TRUE(std::isinf(result.shortfall->candidate));
+    EXPECT_GT(result.golden_limit[0], 0.002);
+    // Half of the allowed variance: twice the batches that would bring the limit to the specification.
+    const double worst = std::max(result.golden_limit[0], result.golden_limit[2]);
+    EXPECT_NEAR(result.shortfall->golden, 256.0 + 512.0 * 2.0 * std::pow(worst / 0.002, 2.0),
+                0.01 * result.shortfall->golden);
+    EXPECT_NE(
+        result.reason.find("more samples do not help, as the golden's own noise hides errors below"),
+        std::string::npos)
+        << result.reason;
+    EXPECT_NE(result.reason.find("a golden of about"), std::string::npos) << result.reason;
+}
+
+TEST_F(ComparePicture, APictureWithTheGoldensOwnNoiseIsRefused)
+{
+    EXPECT_EQ(error_of<std::invalid_argument>(
+                  [&] { golden::compare_picture(reference(), reference().mean, 3072.0); }),
+              "has the golden's own noise: it is not independent of the golden");
+    // Of the same noise but for a part of it.
+    Image nearly = reference().mean;
+    const Image other = picture(64, 9);
+    for (std::size_t i = 0; i < nearly.pixels.size(); ++i)
+        nearly.pixels[i] = 0.95 * nearly.pixels[i] + 0.05 * other.pixels[i];
+    EXPECT_THROW(golden::compare_picture(reference(), nearly, 3072.0), std::invalid_argument);
+}
+
+TEST(ComparePictures, SaysHowManyPicturesAreNeeded)
+{
+    const SimulatedRenderer renderer(32, Noise::gamma);
+    golden::GoldenMaker maker(32, 32, 256);
+    for (std::uint64_t batch = 0; batch < 768; ++batch) maker.add_batch(renderer.render(1, batch));
+    const golden::Golden golden = maker.golden(golden_test::metadata);
+    golden::CompareOptions options;
+    options.specification = 0.012;
+    const auto pictures = [&](std::size_t count) {
+        std::vector<Image> result;
+        for (std::uint64_t i = 0; i < count; ++i) result.push_back(renderer.render(5, i));
+        return result;
+    };
+    const Comparison few = golden::compare_pictures(golden, pictures(8), options);
+    ASSERT_EQ(few.verdict, Verdict::inconclusive);
+    ASSERT_TRUE(few.shortfall);
+    EXPECT_NE(few.reason.find(" such pictures are needed instead of 8."), std::string::npos)
+        << few.reason;
+    const auto needed = static_cast<std::size_t>(few.shortfall->candidate);
+    EXPECT_GT(needed, 16u);
+    EXPECT_EQ(golden::compare_pictures(golden, pictures(needed * 3 / 2), options).verdict,
+              Verdict::pass);
+    EXPECT_EQ(golden::compare_pictures(golden, pictures(needed / 2), options).verdict,
+              Verdict::inconclusive);
+}
+
+} // namespace

@@ -1,0 +1,73 @@
+// What the reader of a FAIL is told of its possible causes.
+
+#include "golden/reason.h"
+#include "tests/golden/simulated_golden.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace {
+
+using golden::Comparison;
+using golden::Image;
+using golden::Metadata;
+using golden::Rgb;
+
+class Reason : public golden_test::SimulatedGolden {
+protected:
+    static golden::Golden six_edges()
+    {
+        golden::Golden golden = reference();
+        golden.metadata["max_edges"] = "6";
+        return golden;
+    }
+    static std::string causes(const Image& image, const Metadata& candidate = {})
+    {
+        const golden::Golden golden = six_edges();
+        const Comparison result = golden::compare_picture(golden, image, 1024.0);
+        EXPECT_EQ(result.verdict, golden::Verdict::fail) << result.reason;
+        return say_possible_causes(result, golden, candidate, image);
+    }
+};
+
+TEST_F(Reason, OfABrighterPictureMayBeLongerPaths)
+{
+    const Image bright = picture(256, 7, {.everywhere = 1.125});
+    EXPECT_NE(causes(bright).find("The golden's paths have at most 6 edges"), std::string::npos)
+        << causes(bright);
+    // One that says how long its paths are has been compared by that already.
+    EXPECT_EQ(causes(bright, {{"max_edges", "6"}}).find("edges"), std::string::npos);
+    EXPECT_EQ(causes(picture(256, 7, {.everywhere = 0.9})).find("edges"), std::string::npos);
+}
+
+TEST_F(Reason, OfTheSameFactorEverywhereMayBeTheExposure)
+{
+    const std::string exposure = "the same factor everywhere";
+    EXPECT_NE(causes(picture(256, 7, {.everywhere = 0.5})).find(exposure), std::string::npos);
+    EXPECT_EQ(causes(picture(256, 7, {.everywhere = 0.0})).find(exposure), std::string::npos);
+    EXPECT_EQ(causes(picture(256, 7, {.in_caustic = 0.5, .in_shadow = 2.0})).find(exposure),
+              std::string::npos);
+}
+
+TEST_F(Reason, OfAPictureUpsideDownIsTheOrderOfItsRows)
+{
+    const Image image = picture(256, 7);
+    Image turned = image;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) turned.at(x, y) = image.at(x, image.height - 1 - y);
+    EXPECT_NE(causes(turned).find("upside down"), std::string::npos);
+    EXPECT_EQ(causes(picture(256, 7, {.everywhere = 0.5})).find("upside down"), std::string::npos);
+}
+
+TEST_F(Reason, OfAPassThereIsNone)
+{
+    const Image image = picture(256, 7);
+    const golden::Golden golden = six_edges();
+    const Comparison result =
+        golden::compare_picture(golden, image, 1024.0, golden_test::for_small_pictures());
+    EXPECT_EQ(say_possible_causes(result, golden, {}, image), "");
+}
+
+} // namespace

@@ -1,0 +1,75 @@
+#pragma once
+
+// One golden of a simulated picture for all tests of the judge, and candidates for it. All seeds are
+// fixed: what passes goes on passing. At the levels given, a right picture is accused by chance once in
+// 20 choices of a seed at most.
+
+#include "golden/compare.h"
+#include "tests/calibration/simulated_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace golden_test {
+
+inline constexpr int size = 32; // pixels a side
+inline const golden::Metadata metadata = {{"batch_size", "4"}, {"scene_hash", "abc"}, {"seed", "1"}};
+
+/// Levels of detectable errors as 32x32 pixels can offer.
+inline golden::CompareOptions for_small_pictures()
+{
+    golden::CompareOptions options;
+    options.specification = 0.02;
+    return options;
+}
+
+class SimulatedGolden : public ::testing::Test {
+protected:
+    static const calibration::SimulatedRenderer& renderer()
+    {
+        static const calibration::SimulatedRenderer instance(size, calibration::Noise::lognormal);
+        return instance;
+    }
+    /// Of 256 batches of pilot and 512 of reference.
+    static const golden::Golden& reference()
+    {
+        static const golden::Golden instance = [] {
+            golden::GoldenMaker maker(size, size, 256);
+            for (std::uint64_t batch = 0; batch < 768; ++batch)
+                maker.add_batch(renderer().render(1, batch));
+            return maker.golden(metadata);
+        }();
+        return instance;
+    }
+    static golden::Candidate candidate(const calibration::Bias& bias = {}, std::uint64_t batches = 64,
+                                       std::uint64_t seed = 2)
+    {
+        golden::Candidate result(reference().functionals);
+        for (std::uint64_t batch = 0; batch < batches; ++batch)
+            result.add_batch(renderer().render(seed, batch, bias));
+        return result;
+    }
+    /// A picture of that many batches, of 4 samples each.
+    static golden::Image picture(std::uint64_t batches, std::uint64_t seed,
+                                 const calibration::Bias& bias = {})
+    {
+        golden::Film film(size, size);
+        for (std::uint64_t batch = 0; batch < batches; ++batch)
+            film.add_batch(renderer().render(seed, batch, bias));
+        return film.mean();
+    }
+    /// Stages of the simulated renderer, each with its own bias; the last goes on.
+    static golden::RenderStage stages(const std::vector<calibration::Bias>& biases)
+    {
+        return [biases](std::size_t stage, std::uint64_t batches, golden::Candidate& result) {
+            for (std::uint64_t batch = 0; batch < batches; ++batch)
+                result.add_batch(
+                    renderer().render(10 + stage, batch, biases[std::min(stage, biases.size() - 1)]));
+        };
+    }
+};
+
+} // namespace golden_test
