@@ -43,7 +43,7 @@ LinearPart invertible_part(const Matrix& to_world, const Element& instance)
     return linear;
 }
 
-std::string with_line(const Element& instance)
+std::string instance_with_line(const Element& instance)
 {
     return "the instance in line " + std::to_string(instance.GetLineNum());
 }
@@ -52,7 +52,7 @@ std::string with_line(const Element& instance)
 std::string why_unbound(const Part& part, const Element& instance)
 {
     if (part.element->Attribute("material") == nullptr) return "";
-    return with_line(instance) + " binds none to its symbol: ";
+    return instance_with_line(instance) + " binds none to its symbol: ";
 }
 
 } // namespace
@@ -120,7 +120,7 @@ void Instances::add_sphere(const LocalSphere& sphere, const Element& geometry, c
     const Element* const bound = MaterialBinding(*document_, instance).only_material();
     const std::uint32_t material =
         bound ? materials_.index_of(*bound)
-              : default_material(geometry, with_line(instance) + " binds none: ");
+              : default_material(geometry, instance_with_line(instance) + " binds none: ");
     const Sphere world{world_position(to_world, instance), scale * sphere.radius, material};
     if (!(world.radius > 0) || !is_finite(Vec3(world.radius)))
         fail(instance, "the transform of its node leaves the sphere no finite radius");
