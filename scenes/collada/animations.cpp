@@ -8,13 +8,15 @@ namespace scenes::collada {
 namespace {
 
 /// The elements whose id `target` begins with: "id/sid", "id/sid.member", "id/sid(i)", "id.member",
-/// "id(i)" or "id". An id may have dots itself: only what follows the last one can be a member.
+/// "id(i)" or "id". An id may have dots itself, but no parentheses: of the dots only the last can
+/// begin a member.
 const std::vector<const Element*>& targets_of(const Document& document, std::string_view target)
 {
     const std::string_view first = target.substr(0, target.find('/'));
     if (const auto& found = document.with_id(first); !found.empty() || first.size() < target.size())
         return found;
-    return document.with_id(first.substr(0, std::min(first.find('('), first.rfind('.'))));
+    const std::size_t index = first.find('(');
+    return document.with_id(first.substr(0, index != first.npos ? index : first.rfind('.')));
 }
 
 /// Whether what stands in `element`, or at it, is the transform of a node.

@@ -34,7 +34,8 @@ Notices notices_with(const std::string& animations)
                          "</node>";
     text.nodes = "<node id=\"outer\"><node id=\"inner\"><translate sid=\"location\">0 0 1</translate>"
                  "<instance_node url=\"#shared\"/><instance_light url=\"#bulb\"/></node></node>"
-                 "<node id=\"twin\"/><node id=\"twin\"><instance_camera url=\"#eye\"/></node>";
+                 "<node id=\"with.dot\"/><node id=\"twin\"/><node id=\"twin\"><instance_camera "
+                 "url=\"#eye\"/></node>";
     std::string xml = text.str();
     xml.insert(xml.find("<library_cameras>"),
                "\n<library_animations>\n" + animations + "</library_animations>");
@@ -49,7 +50,8 @@ std::string notice(const std::string& target, const std::string& what)
 TEST(Animations, OfNodesInThePictureAreNoticed)
 {
     for (const char* target : {"outer/matrix", "inner/location.X", "inner/location(0)", "shared/scale",
-                               "twin/rotateX.ANGLE", "scene/sid/location", "inner"})
+                               "twin/rotateX.ANGLE", "scene/sid/location", "inner", "with.dot",
+                               "with.dot.X", "with.dot(3)(0)", "with.dot/location.X"})
         EXPECT_EQ(notices_with("<animation>" + channel(target) + "</animation>"),
                   Notices{notice(target, transforms_stand)});
 }
@@ -70,9 +72,10 @@ TEST(Animations, OfOtherThingsInThePictureAreNoticed)
 
 TEST(Animations, OfWhatIsNotInThePictureNeedNoWord)
 {
-    for (const char* target : {"spare-node/location.X", "spare-eye/xfov", "spare-bulb/c", "spare/x",
-                               "spare-effect/common", "spare-t/x", "spare-t-a(3)", "gone/location", "",
-                               "/", "./location", "(0)", "ou", "outer2/matrix"})
+    for (const char* target :
+         {"spare-node/location.X", "spare-eye/xfov", "spare-bulb/c", "spare/x", "spare-effect/common",
+          "spare-t/x", "spare-t-a(3)", "gone/location", "", "/", "./location", "(0)", "ou",
+          "outer2/matrix", "with", "with/location.X", "with.X"})
         EXPECT_EQ(notices_with("<animation>" + channel(target) + "</animation>"), Notices{}) << target;
     EXPECT_EQ(notices_with("<animation><channel/></animation><twist/>"), Notices{});
 }
