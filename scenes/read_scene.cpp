@@ -4,12 +4,15 @@
 //   nodes        the tree of nodes below <scene>, with its transforms
 //   instances    geometries, lights and cameras, placed in the world
 //   geometries   (positions, polygons, triangulate), materials, lights, cameras: one element each
-// Elements are read when an instance needs them: what nothing refers to is not looked at. Lengths are
-// those of the file (<unit> is ignored), and so is the frame: transforms are taken as they are written,
+//   animations   not followed; a notice of those that act on something in the picture
+// Elements are read when an instance needs them: what nothing refers to is not looked at and cannot be
+// wrong; ids given twice are an error only where a reference to them is followed. Lengths are those of
+// the file (<unit> is ignored), and so is the frame: transforms are taken as they are written,
 // whatever <up_axis> says.
 
 #include "scenes/read_scene.h"
 
+#include "scenes/collada/animations.h"
 #include "scenes/collada/document.h"
 #include "scenes/collada/instances.h"
 #include "scenes/collada/nodes.h"
@@ -43,15 +46,8 @@ void check_root(const Element& root)
     const std::string_view version = required_attribute(root, "version");
     if (version != "1.4.1" && version != "1.4.0")
         fail(root, "version " + in_quotes(version) + " is not 1.4.1");
-    check_children(root, {"library_animation_clips", "library_animations", "library_cameras",
-                          "library_controllers", "library_effects", "library_force_fields",
-                          "library_geometries", "library_images", "library_lights", "library_materials",
-                          "library_nodes", "library_physics_materials", "library_physics_models",
-                          "library_physics_scenes", "library_visual_scenes", "scene"});
-    // Whatever else is never instanced changes nothing, but animations act on nodes by themselves.
-    for (const Element* library : children(root, "library_animations"))
-        if (const Element* animation = library->FirstChildElement("animation"))
-            fail(*animation, "animations are not supported");
+    check_children(root,
+                   {"library_*", "scene"}); // what is in a library and never needed changes nothing
 }
 
 } // namespace
@@ -72,6 +68,7 @@ Scene parse_scene(std::string_view xml, const std::string& file_name)
     Instances instances(document, scene);
     NodeWalk(document, instances).visit_scene(document.target(instance, "url", "visual_scene"));
     instances.finish();
+    notice_animations(document, scene.notices); // now it is known what is in use
     return scene;
 }
 

@@ -5,39 +5,38 @@
 namespace scenes::collada {
 
 MaterialBinding::MaterialBinding(const Document& document, const Element& instance)
-    : instance_(&instance)
+    : document_(&document), instance_(&instance)
 {
     const Element* bind_material = optional_child(instance, "bind_material");
     if (bind_material == nullptr) return;
     check_children(*bind_material, {"param", "technique_common", "technique"});
     const Element& technique = required_child(*bind_material, "technique_common");
     check_children(technique, {"instance_material"});
-    for (const Element* bound : children(technique, "instance_material")) {
-        check_children(*bound, {"bind", "bind_vertex_input"}); // these feed textures, which are refused
-        const bool is_new = materials_
-                                .emplace(required_attribute(*bound, "symbol"),
-                                         &document.target(*bound, "target", "material"))
-                                .second;
-        if (!is_new) fail(*bound, "binds its symbol a second time");
-    }
+    for (const Element* bound : children(technique, "instance_material"))
+        bound_[required_attribute(*bound, "symbol")].push_back(bound);
 }
 
-const Element& MaterialBinding::material_of(const Element& part) const
+const Element& MaterialBinding::material_in(const Bound& bound) const
+{
+    if (bound.size() > 1) fail(*bound[1], "binds its symbol a second time");
+    check_children(*bound[0], {"bind", "bind_vertex_input"}); // these feed textures, which are refused
+    return document_->target(*bound[0], "target", "material");
+}
+
+const Element* MaterialBinding::material_of(const Element& part) const
 {
     const char* symbol = part.Attribute("material");
-    if (symbol == nullptr) fail(part, "no material: attribute \"material\" is missing");
-    const auto bound = materials_.find(symbol);
-    if (bound == materials_.end())
-        fail(*instance_, "no material: it binds none to the symbol " + in_quotes(symbol) + " of line " +
-                             std::to_string(part.GetLineNum()));
-    return *bound->second;
+    if (symbol == nullptr) return nullptr;
+    const auto bound = bound_.find(symbol);
+    return bound == bound_.end() ? nullptr : &material_in(bound->second);
 }
 
-const Element& MaterialBinding::only_material() const
+const Element* MaterialBinding::only_material() const
 {
-    if (materials_.size() != 1)
-        fail(*instance_, "a sphere takes one material, not " + std::to_string(materials_.size()));
-    return *materials_.begin()->second;
+    if (bound_.empty()) return nullptr;
+    if (bound_.size() > 1)
+        fail(*instance_, "a sphere takes one material, not " + std::to_string(bound_.size()));
+    return &material_in(bound_.begin()->second);
 }
 
 } // namespace scenes::collada

@@ -6,23 +6,30 @@
 
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 namespace scenes::collada {
 
-/// The <bind_material> of an <instance_geometry>.
+/// The <bind_material> of an <instance_geometry>. What it binds to a symbol is read when a surface needs
+/// it.
 class MaterialBinding {
 public:
     MaterialBinding(const Document& document, const Element& instance);
 
-    /// The <material> for `part`, a <triangles>, <polylist> or <polygons> of the geometry. Fails if the
-    /// part names no symbol, or if the instance does not bind it.
-    [[nodiscard]] const Element& material_of(const Element& part) const;
-    /// The one <material> bound, whatever its symbol; fails unless there is exactly one.
-    [[nodiscard]] const Element& only_material() const;
+    /// The <material> for `part`, a <triangles>, <polylist> or <polygons> of the geometry; null if the
+    /// part names no symbol or the instance does not bind it. Fails if it binds the symbol twice.
+    [[nodiscard]] const Element* material_of(const Element& part) const;
+    /// The one <material> bound, whatever its symbol; null if there is none. Fails if there are several.
+    [[nodiscard]] const Element* only_material() const;
 
 private:
+    using Bound = std::vector<const Element*>; // <instance_material>s of one symbol
+
+    [[nodiscard]] const Element& material_in(const Bound& bound) const;
+
+    const Document* document_;
     const Element* instance_;
-    std::unordered_map<std::string_view, const Element*> materials_; // by symbol
+    std::unordered_map<std::string_view, Bound> bound_; // by symbol
 };
 
 } // namespace scenes::collada

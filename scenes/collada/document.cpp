@@ -9,7 +9,7 @@
 namespace scenes::collada {
 namespace {
 
-using IdIndex = std::unordered_map<std::string_view, const Element*>;
+using IdIndex = std::unordered_map<std::string_view, std::vector<const Element*>>;
 
 [[noreturn]] void fail_at_line(const std::string& file_name, long line, const std::string& what)
 {
@@ -46,12 +46,8 @@ public:
 
     bool VisitEnter(const Element& element, const tinyxml2::XMLAttribute* /*first*/) override
     {
-        if (const char* id = element.Attribute("id")) {
-            const auto [known, is_new] = elements_by_id_->emplace(id, &element);
-            if (!is_new)
-                fail(element, "its id is already that of the <" + std::string(known->second->Name()) +
-                                  "> in line " + std::to_string(known->second->GetLineNum()));
-        }
+        const char* id = element.Attribute("id");
+        if (id != nullptr && *id != '\0') (*elements_by_id_)[id].push_back(&element);
         return true;
     }
 
@@ -103,6 +99,19 @@ void check_top_level(const tinyxml2::XMLDocument& xml, const std::string& file_n
     }
 }
 
+std::string with_line(const Element& element)
+{
+    return "the " + in_brackets(element) + " in line " + std::to_string(element.GetLineNum());
+}
+
+/// "two elements have the id "x": the <node> in line 3 and the <node> in line 7".
+std::string ambiguity(std::string_view id, const std::vector<const Element*>& elements)
+{
+    const std::string have = " elements have the id " + in_quotes(id) + ": " + with_line(*elements[0]);
+    if (elements.size() == 2) return "two" + have + " and " + with_line(*elements[1]);
+    return std::to_string(elements.size()) + have + ", " + with_line(*elements[1]) + " and so on";
+}
+
 } // namespace
 
 Document::Document(std::string_view xml, const std::string& file_name)
@@ -130,12 +139,31 @@ const Element& Document::target(const Element& from, const char* attribute,
     if (url.size() < 2 || url[0] != '#')
         fail(from, std::string(attribute) + " " + in_quotes(url) +
                        " is not of the form \"#id\": other files are not read");
-    const auto found = elements_by_id_.find(url.substr(1));
-    if (found == elements_by_id_.end()) fail(from, "nothing has the id " + in_quotes(url.substr(1)));
-    if (found->second->Name() != expected)
-        fail(from, in_quotes(url) + " is a " + in_brackets(*found->second) + ", not a <" +
+    const std::string_view id = url.substr(1);
+    const std::vector<const Element*>& found = with_id(id);
+    if (found.empty()) fail(from, "nothing has the id " + in_quotes(id));
+    if (found.size() > 1) fail(from, ambiguity(id, found));
+    const Element& element = *found.front();
+    if (element.Name() != expected)
+        fail(from, in_quotes(url) + " is a " + in_brackets(element) + ", not a <" +
                        std::string(expected) + ">");
-    return *found->second;
+    targets_.insert(&element);
+    return element;
+}
+
+const std::vector<const Element*>& Document::with_id(std::string_view id) const
+{
+    static const std::vector<const Element*> none;
+    const auto found = elements_by_id_.find(id);
+    return found == elements_by_id_.end() ? none : found->second;
+}
+
+bool Document::is_in_use(const Element& element) const
+{
+    for (const tinyxml2::XMLNode* node = &element; node != nullptr; node = node->Parent())
+        if (const Element* around = node->ToElement(); around != nullptr && targets_.contains(around))
+            return true;
+    return false;
 }
 
 } // namespace scenes::collada

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace scenes::collada {
@@ -17,7 +18,8 @@ using Element = tinyxml2::XMLElement;
 
 /// The document and an index of its ids. Throws SceneError for anything but well-formed UTF-8 without
 /// a document type declaration (entities could make a small file large), for elements nested deeper than
-/// 98 (tinyxml2 counts the document and stops at 100), and for an id or an attribute given twice.
+/// 98 (tinyxml2 counts the document and stops at 100), and for an attribute given twice. An id may be
+/// given to several elements as long as no reference to it has to be followed.
 class Document {
 public:
     Document(std::string_view xml, const std::string& file_name);
@@ -25,14 +27,22 @@ public:
     [[nodiscard]] const Element& root() const { return *xml_->RootElement(); }
 
     /// The element that `attribute` of `from` refers to in the form "#id". Throws SceneError if the
-    /// attribute is missing or malformed, or if no <expected> element has that id.
+    /// attribute is missing or malformed, if no <expected> element has that id, or if another element
+    /// has it as well.
     [[nodiscard]] const Element& target(const Element& from, const char* attribute,
                                         std::string_view expected) const;
+
+    /// The elements of that id, in the order of the file; none if `id` is empty.
+    [[nodiscard]] const std::vector<const Element*>& with_id(std::string_view id) const;
+
+    /// Whether target() has found `element` so far, or an element that it stands in.
+    [[nodiscard]] bool is_in_use(const Element& element) const;
 
 private:
     std::unique_ptr<std::string> file_name_; // its address is known to the document
     std::unique_ptr<tinyxml2::XMLDocument> xml_;
-    std::unordered_map<std::string_view, const Element*> elements_by_id_;
+    std::unordered_map<std::string_view, std::vector<const Element*>> elements_by_id_;
+    mutable std::unordered_set<const Element*> targets_; // what target() has found
 };
 
 /// `element` as a message shows it: `<light id="Sun">`.
@@ -62,9 +72,10 @@ const Element& required_child(const Element& parent, const char* name);
 
 /// Where the CMU462 profile can say something.
 enum class Cmu462 { refused, understood };
-/// Fails at the first child of `parent` that is not one of `known`; <asset> and <extra> are always
-/// known, but what <extra> says in the CMU462 profile must be `understood`. A <technique> of that
-/// profile anywhere else would be overlooked: it fails.
+/// Fails at the first child of `parent` that is not one of `known`, where "library_*" stands for every
+/// name that begins with "library_"; <asset> and <extra> are always known, but what <extra> says in the
+/// CMU462 profile must be `understood`. A <technique> of that profile anywhere else would be overlooked:
+/// it fails.
 void check_children(const Element& parent, std::initializer_list<std::string_view> known,
                     Cmu462 profile = Cmu462::refused);
 /// The <technique profile="CMU462"> in an <extra> of `owner`, or null if there is none or it is empty.

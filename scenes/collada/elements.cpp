@@ -15,6 +15,12 @@ std::string_view trimmed(std::string_view text)
     return text.substr(0, text.find_last_not_of(white_space) + 1);
 }
 
+/// Whether `name` is `known`, or begins with it up to a final star.
+bool matches(std::string_view name, std::string_view known)
+{
+    return known.ends_with('*') ? name.starts_with(known.substr(0, known.size() - 1)) : name == known;
+}
+
 } // namespace
 
 std::string legible(std::string_view text)
@@ -117,7 +123,8 @@ void check_children(const Element& parent, std::initializer_list<std::string_vie
         if (name == "technique" && child->Attribute("profile", "CMU462"))
             fail(*child, "the CMU462 profile belongs in an <extra>");
         if (name != "extra" && name != "asset" &&
-            std::find(known.begin(), known.end(), name) == known.end())
+            std::none_of(known.begin(), known.end(),
+                         [&](std::string_view one) { return matches(name, one); }))
             fail(*child, "not known inside " + describe(parent));
     }
     if (profile == Cmu462::understood) return;

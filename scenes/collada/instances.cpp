@@ -43,14 +43,27 @@ LinearPart invertible_part(const Matrix& to_world, const Element& instance)
     return linear;
 }
 
+std::string instance_with_line(const Element& instance)
+{
+    return "the instance in line " + std::to_string(instance.GetLineNum());
+}
+
+/// Why `part` has no material in `instance`; nothing to add if it names no symbol.
+std::string why_unbound(const Part& part, const Element& instance)
+{
+    if (part.element->Attribute("material") == nullptr) return "";
+    return instance_with_line(instance) + " binds none to its symbol: ";
+}
+
 } // namespace
 
 void Instances::add_geometry(const Element& instance, const Matrix& to_world)
 {
     check_children(instance, {"bind_material"});
-    const Geometry& geometry = geometries_.get(document_->target(instance, "url", "geometry"));
+    const Element& element = document_->target(instance, "url", "geometry");
+    const Geometry& geometry = geometries_.get(element);
     if (const auto* sphere = std::get_if<LocalSphere>(&geometry))
-        add_sphere(*sphere, instance, to_world);
+        add_sphere(*sphere, element, instance, to_world);
     else
         add_mesh(std::get<Mesh>(geometry), instance, to_world);
 }
@@ -60,9 +73,20 @@ void Instances::add_mesh(const Mesh& mesh, const Element& instance, const Matrix
     const MaterialBinding binding(*document_, instance);
     for (const Part& part : mesh) {
         if (part.triangles.empty()) continue;
-        const std::uint32_t material = materials_.index_of(binding.material_of(*part.element));
+        const Element* const bound = binding.material_of(*part.element);
+        const std::uint32_t material =
+            bound ? materials_.index_of(*bound)
+                  : default_material(*part.element, why_unbound(part, instance));
         add_triangles(part.triangles, material, instance, to_world);
     }
+}
+
+std::uint32_t Instances::default_material(const Element& surface, const std::string& why)
+{
+    if (noticed_without_material_.insert(&surface).second)
+        scene_->notices.push_back(place(surface) + "no material: " + why +
+                                  "the default, Lambertian with albedo 0.5, is used");
+    return materials_.index_of_default();
 }
 
 void Instances::add_triangles(const std::vector<Corners>& triangles, std::uint32_t material,
@@ -82,7 +106,8 @@ void Instances::add_triangles(const std::vector<Corners>& triangles, std::uint32
     }
 }
 
-void Instances::add_sphere(const LocalSphere& sphere, const Element& instance, const Matrix& to_world)
+void Instances::add_sphere(const LocalSphere& sphere, const Element& geometry, const Element& instance,
+                           const Matrix& to_world)
 {
     const LinearPart linear = invertible_part(to_world, instance);
     if (!linear.uniform || !linear.orthogonal)
@@ -92,8 +117,11 @@ void Instances::add_sphere(const LocalSphere& sphere, const Element& instance, c
                            (linear.orthogonal ? "" : " and shears it"));
     check_room(1, instance);
     const double scale = (linear.lengths.x + linear.lengths.y + linear.lengths.z) / 3;
-    const Sphere world{world_position(to_world, instance), scale * sphere.radius,
-                       materials_.index_of(MaterialBinding(*document_, instance).only_material())};
+    const Element* const bound = MaterialBinding(*document_, instance).only_material();
+    const std::uint32_t material =
+        bound ? materials_.index_of(*bound)
+              : default_material(geometry, instance_with_line(instance) + " binds none: ");
+    const Sphere world{world_position(to_world, instance), scale * sphere.radius, material};
     if (!(world.radius > 0) || !is_finite(Vec3(world.radius)))
         fail(instance, "the transform of its node leaves the sphere no finite radius");
     scene_->spheres.push_back(world);
@@ -130,9 +158,9 @@ void Instances::add_light(const Element& instance, const Matrix& to_world)
 
 void Instances::add_camera(const Element& instance, const Matrix& to_world)
 {
-    check_children(instance, {});
-    const Element& camera = document_->target(instance, "url", "camera");
     if (!scene_->camera) {
+        check_children(instance, {});
+        const Element& camera = document_->target(instance, "url", "camera");
         scene_->camera = read_camera(camera, instance, to_world, scene_->notices);
     } else if (!other_cameras_noticed_) {
         scene_->notices.push_back(place(instance) + "ignored, like every camera but the first");

@@ -10,6 +10,8 @@
 #include "scenes/scene.h"
 
 #include <cstddef>
+#include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace scenes::collada {
@@ -24,11 +26,13 @@ public:
 
     /// <instance_geometry>. A mirroring transform turns the winding of triangles over as well, so that
     /// their normal stays on the side that it was on: the front of a mirrored lamp is the mirror image
-    /// of its front. Spheres take similarity transforms only: an ellipsoid is an error.
+    /// of its front. Spheres take similarity transforms only: an ellipsoid is an error. Where no
+    /// material is bound the default one stands in, with one notice for each part of a mesh and each
+    /// sphere.
     void add_geometry(const Element& instance, const Matrix& to_world);
     /// <instance_light>. Area lights wait until finish().
     void add_light(const Element& instance, const Matrix& to_world);
-    /// <instance_camera>. The first one counts; others are noticed.
+    /// <instance_camera>. The first one counts; others are noticed and not read.
     void add_camera(const Element& instance, const Matrix& to_world);
     /// To be called after the last instance: turns area lights into pairs of triangles, unless the
     /// geometry emits itself, for then they describe the same luminaires a second time. Notices a scene
@@ -44,9 +48,13 @@ private:
     };
 
     void add_mesh(const Mesh& mesh, const Element& instance, const Matrix& to_world);
-    void add_sphere(const LocalSphere& sphere, const Element& instance, const Matrix& to_world);
+    void add_sphere(const LocalSphere& sphere, const Element& geometry, const Element& instance,
+                    const Matrix& to_world);
     void add_triangles(const std::vector<Corners>& triangles, std::uint32_t material,
                        const Element& instance, const Matrix& to_world);
+    /// The index of the default material, with a notice that `surface` (an element of a geometry) gets
+    /// it and `why`: once, however many instances it has.
+    std::uint32_t default_material(const Element& surface, const std::string& why);
     /// Fails if `more` primitives on top of those in the scene are too many.
     void check_room(std::size_t more, const Element& instance) const;
 
@@ -55,6 +63,7 @@ private:
     Materials materials_;
     Geometries geometries_;
     std::vector<AreaLightInstance> area_lights_;
+    std::unordered_set<const Element*> noticed_without_material_;
     bool other_cameras_noticed_ = false;
 };
 

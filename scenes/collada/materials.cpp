@@ -122,13 +122,23 @@ std::uint32_t Materials::index_of(const Element& light, const Rgb& radiance)
     return known != indices_.end() ? known->second : add(light, Emission{radiance});
 }
 
+std::uint32_t Materials::index_of_default()
+{
+    if (!default_) default_ = append("default", Lambertian{Rgb(0.5)});
+    return *default_;
+}
+
 std::uint32_t Materials::add(const Element& element, const Material& material)
+{
+    const char* id = element.Attribute("id");
+    return indices_.emplace(&element, append(id ? id : "", material)).first->second;
+}
+
+std::uint32_t Materials::append(const std::string& name, const Material& material)
 {
     const auto index = static_cast<std::uint32_t>(scene_->materials.size());
     scene_->materials.push_back(material);
-    const char* id = element.Attribute("id");
-    scene_->material_names.emplace_back(id ? id : "");
-    indices_.emplace(&element, index);
+    scene_->material_names.push_back(name);
     return index;
 }
 

@@ -7,6 +7,8 @@
 #include "scenes/scene.h"
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <unordered_map>
 
 namespace scenes::collada {
@@ -33,13 +35,17 @@ public:
     std::uint32_t index_of(const Element& material);
     /// The same for a luminaire that has no material of its own: the emission of a light element.
     std::uint32_t index_of(const Element& light, const Rgb& radiance);
+    /// The same for surfaces that no material is bound to: Lambertian with albedo 0.5, named "default".
+    std::uint32_t index_of_default();
 
 private:
     std::uint32_t add(const Element& element, const Material& material);
+    std::uint32_t append(const std::string& name, const Material& material);
 
     const Document* document_;
     Scene* scene_;
     std::unordered_map<const Element*, std::uint32_t> indices_;
+    std::optional<std::uint32_t> default_;
 };
 
 } // namespace scenes::collada

@@ -244,11 +244,8 @@ const Mistake mistakes[] = {
      "<COLLADA>: version \"1.5.0\" is not 1.4.1"},
     {"MissingVersion", " version=\"1.4.1\"", "", "<COLLADA",
      "<COLLADA>: attribute \"version\" is missing"},
-    {"UnknownLibrary", "<library_nodes>", "<library_wishes/><library_nodes>", "<library_wishes",
-     "<library_wishes>: not known inside <COLLADA>"},
-    {"Animation", "<library_nodes>",
-     "<library_animations>\n<animation id=\"spin\"/></library_animations><library_nodes>",
-     "<animation id", "<animation id=\"spin\">: animations are not supported"},
+    {"UnknownAtTheTop", "<library_nodes>", "<wishes/><library_nodes>", "<wishes",
+     "<wishes>: not known inside <COLLADA>"},
     {"OtherEncoding", "encoding=\"utf-8\"", "encoding=\"iso-8859-1\"", "<?xml",
      "<?xml>: encoding \"iso-8859-1\" is not UTF-8"},
     {"DocumentType", "<!-- One of everything. -->", "<!DOCTYPE COLLADA>", "<!DOCTYPE",
@@ -262,9 +259,20 @@ const Mistake mistakes[] = {
      "<radius>: \"&half;\" is not a number"},
     {"AttributeTwice", "symbol=\"any\"", "symbol=\"any\" symbol=\"none\"", "symbol=\"any\"",
      "not well-formed XML: parsing attribute"},
-    {"DuplicateId", "<geometry id=\"ball\">", "<geometry id=\"quad\" name=\"ball\">", "name=\"ball\"",
-     "<geometry id=\"quad\">: its id is already that of the <geometry> in line " +
-         line_of("<geometry id=\"quad\">")},
+    {"IdOfTwo", "<geometry id=\"ball\">", "<geometry id=\"quad\" name=\"ball\">",
+     "<instance_geometry url=\"#quad\">",
+     "<instance_geometry url=\"#quad\">: two elements have the id \"quad\": the <geometry> in line " +
+         line_of("<geometry id=\"quad\">") + " and the <geometry> in line " +
+         line_of("<geometry id=\"ball\">")},
+    {"IdOfTwoKinds", "<library_lights>", "<library_lights><light id=\"grey\"/>", "target=\"#grey\"",
+     "<instance_material target=\"#grey\">: two elements have the id \"grey\": the <light> in line " +
+         line_of("<library_lights>") + " and the <material> in line " +
+         line_of("<material id=\"grey\">")},
+    {"IdOfThree", "<library_lights>", "<extra><a id=\"pair\"/><b id=\"pair\"/></extra><library_lights>",
+     "url=\"#pair\"",
+     "<instance_node url=\"#pair\">: 3 elements have the id \"pair\": the <a> in line " +
+         line_of("<library_lights>") + ", the <b> in line " + line_of("<library_lights>") +
+         " and so on"},
     {"SecondScene", "<scene>", "<scene/><scene>", "<scene/>", "<scene>: a second <scene> in <COLLADA>"},
     {"NoScene", "<scene>\n    <instance_visual_scene url=\"#scene\"/>\n  </scene>", "", "<COLLADA",
      "<COLLADA>: no <scene> in it"},
@@ -307,6 +315,8 @@ const Mistake mistakes[] = {
      "<node id=\"things\">: text \"2 2 2\" is not known here"},
     {"ShortMatrix", matrix, "<matrix>1 0 0 0 0 1 0 0 0 0 1 0</matrix>", "<matrix>",
      "<matrix>: 12 numbers where there should be 16"},
+    {"MatrixOfFifteen", matrix, "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 1</matrix>", "<matrix>",
+     "<matrix>: 15 numbers where there should be 16"},
     {"PerspectiveMatrix", matrix, "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1</matrix>", "<matrix>",
      "<matrix>: the last row is not 0 0 0 1: a perspective transform has no meaning here"},
     {"SingularMatrix", matrix, "<matrix>1 0 0 0 0 1 0 0 1 1 0 0 0 0 0 1</matrix>",
@@ -444,14 +454,11 @@ const Mistake mistakes[] = {
     {"UnknownShape", "<sphere>\n            <radius>0.5</radius>\n          </sphere>", "<torus/>",
      "<torus/>", "<torus>: not known inside <technique>"},
     // Materials
-    {"NoMaterial", " material=\"skin\"", "", "<polylist",
-     "<polylist>: no material: attribute \"material\" is missing"},
-    {"UnboundMaterial", "symbol=\"skin\"", "symbol=\"skull\"", "<instance_geometry url=\"#quad\">",
-     "<instance_geometry url=\"#quad\">: no material: it binds none to the symbol \"skin\" of line " +
-         line_of("<polylist")},
-    {"SphereWithoutMaterial", "<instance_material symbol=\"any\" target=\"#glass\"/>", "",
+    {"SphereOfTwoMaterials", "<instance_material symbol=\"any\" target=\"#glass\"/>",
+     "<instance_material symbol=\"any\" target=\"#glass\"/><instance_material symbol=\"other\" "
+     "target=\"#grey\" sid=\"2\"/>",
      "<instance_geometry url=\"#ball\">",
-     "<instance_geometry url=\"#ball\">: a sphere takes one material, not 0"},
+     "<instance_geometry url=\"#ball\">: a sphere takes one material, not 2"},
     {"SymbolTwice", "<instance_material symbol=\"any\" target=\"#glass\"/>",
      "<instance_material symbol=\"any\" target=\"#glass\"/>\n<instance_material symbol=\"any\" "
      "target=\"#grey\" sid=\"2\"/>",
