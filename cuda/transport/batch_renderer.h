@@ -94,7 +94,7 @@ private:
         : executor_(executor), options_(checked(options)), width_(width), height_(height),
           pixels_(static_cast<std::uint32_t>(width * height)),
           needs_(needs_of(arrays) | options.at_least),
-          scene_(memory, executor, arrays, camera_of(scene, arrays, width, height)),
+          scene_(memory, executor, arrays, camera_of(scene, arrays.place, width, height)),
           capacity_(options_.integrator == Integrator::bdpt
                         ? most_light_vertices(arrays, options_.max_edges)
                         : 0),

@@ -116,9 +116,8 @@ std::vector<scenes::Vec3> dual_basis(const std::vector<Plane>& planes)
 }
 
 /// What an end at `position` of the scene touches, judged where the file has it: there its coordinates
-/// were rounded. Sets `rounded` to the same end in the arrays, off the surfaces that it does not touch.
-EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& scene, const scenes::Vec3& position,
-                        Vec3& rounded)
+/// were rounded.
+EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& scene, const scenes::Vec3& position)
 {
     const double near = plane_clearance * arrays.diagonal / arrays.place.scale;
     EndContacts contacts{};
@@ -133,15 +132,14 @@ EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& scene, const s
     }
     planes = independent(std::move(planes));
     const std::vector<scenes::Vec3> dual = dual_basis(planes);
-    scenes::Vec3 moved_to = (position - arrays.place.origin) * arrays.place.scale;
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const scenes::Vec3 push = planes[i].clearance * dual[i];
         if (planes[i].side == 0)
             arrays.contact_planes.push_back({Vec3(planes[i].normal), Vec3(push)});
         else
-            moved_to += static_cast<double>(planes[i].side) * push;
+            arrays.contact_planes.push_back(
+                {Vec3(0.0f), Vec3(static_cast<double>(planes[i].side) * push)});
     }
-    rounded = Vec3(moved_to);
     contacts.plane_count =
         static_cast<std::uint32_t>(arrays.contact_planes.size()) - contacts.first_plane;
     contacts.triangle_count =
@@ -156,16 +154,13 @@ void add_contacts(SceneArrays& arrays, const scenes::Scene& scene)
     add_coincident(arrays, scene, moved(scene, arrays.place));
     for (std::size_t i = 0; i < arrays.emitters.size(); ++i) {
         const Emitter& emitter = arrays.emitters[i];
-        Light& light = arrays.lights[i];
+        EndContacts& contacts = arrays.lights[i].contacts;
         if (emitter.kind == EmitterKind::point)
-            light.contacts =
-                contacts_of(arrays, scene, scene.point_lights[emitter.index].position, light.position);
+            contacts = contacts_of(arrays, scene, scene.point_lights[emitter.index].position);
         if (emitter.kind == EmitterKind::spot)
-            light.contacts =
-                contacts_of(arrays, scene, scene.spot_lights[emitter.index].position, light.position);
+            contacts = contacts_of(arrays, scene, scene.spot_lights[emitter.index].position);
     }
-    if (!scene.camera) return;
-    arrays.eye_contacts = contacts_of(arrays, scene, scene.camera->eye, arrays.eye);
+    if (scene.camera) arrays.eye_contacts = contacts_of(arrays, scene, scene.camera->eye);
 }
 
 } // namespace gpu

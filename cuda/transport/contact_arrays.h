@@ -6,9 +6,8 @@
 
 namespace gpu {
 
-/// Fills in what `arrays` says of contacts: coincident surfaces, and what the lights and the eye lie on.
-/// Its other parts must be there. Ends that are not on a surface, but nearer than a float can tell on
-/// which side, are moved away from it to their side.
+/// Fills in what `arrays` says of contacts: coincident surfaces, and what the lights and the eye lie on,
+/// or lie so near that a float cannot tell on which side. Its other parts must be there.
 void add_contacts(SceneArrays& arrays, const scenes::Scene& scene);
 
 } // namespace gpu

@@ -174,12 +174,12 @@ SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
     return arrays;
 }
 
-Camera camera_of(const scenes::Scene& scene, const SceneArrays& arrays, int width, int height)
+Camera camera_of(const scenes::Scene& scene, const Placement& place, int width, int height)
 {
     const scenes::Camera& source = scene.camera.value();
     const int across = source.fov_axis == scenes::FovAxis::horizontal ? width : height;
     const double pixel_size = 2.0 * std::tan(source.fov / 2.0) / across;
-    return {arrays.eye,
+    return {place(source.eye),
             Vec3(source.right),
             Vec3(source.up),
             Vec3(source.backward),

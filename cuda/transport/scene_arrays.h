@@ -26,7 +26,6 @@ struct SceneArrays {
     std::vector<ContactPlane> contact_planes;
     std::vector<std::uint32_t> contact_triangles;
     EndContacts eye_contacts = {};
-    Vec3 eye{0.0f}; // of the camera, if there is one
     bool has_environment = false;
     float radius = 0;
     float diagonal = 0;
@@ -37,9 +36,8 @@ struct SceneArrays {
 /// double, and rounded once.
 SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette);
 
-/// The scene's camera, with the eye of its arrays, for pictures of `width` x `height` pixels; the scene
-/// must have one.
-Camera camera_of(const scenes::Scene& scene, const SceneArrays& arrays, int width, int height);
+/// The scene's camera for pictures of `width` x `height` pixels; the scene must have one.
+Camera camera_of(const scenes::Scene& scene, const Placement& place, int width, int height);
 
 /// What kernels for the scene must be able to do. Finer than scenes::requirements says where a
 /// distinction costs a kernel more than it saves (docs/cuda-bdpt.md has the measurements).

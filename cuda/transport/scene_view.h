@@ -31,8 +31,9 @@ struct EndContacts {
     std::uint32_t first_triangle, triangle_count;
 };
 
-/// A plane through such an end. Adding `push` moves a point far enough to the side of `normal`, and
-/// along the other planes of the end.
+/// A plane through such an end, or so near it that floats cannot tell its side. Adding `push` moves a
+/// point far enough to the side of `normal`, and along the other planes of the end. Where the side is
+/// known `normal` is 0, and `push` goes to that side.
 struct ContactPlane {
     Vec3 normal, push;
 };

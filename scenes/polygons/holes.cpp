@@ -19,7 +19,7 @@ bool is_left_of(const Point& a, const Point& b)
 }
 
 /// What may lie on a bridge.
-enum class Rule { nothing, touching };
+enum class Touch { nothing, touching };
 
 class Bridges {
 public:
@@ -29,7 +29,7 @@ public:
         for (Ring& hole : holes_) { // each begins with its leftmost corner
             const auto leftmost = std::ranges::min_element(
                 hole, [&](auto i, auto j) { return is_left_of(points_[i], points_[j]); });
-            std::ranges::rotate(hole, leftmost);
+            std::rotate(hole.begin(), leftmost, hole.end());
         }
         std::ranges::sort(holes_, [&](const Ring& a, const Ring& b) {
             return is_left_of(points_[a.front()], points_[b.front()]);
@@ -39,8 +39,8 @@ public:
     std::optional<Ring> join()
     {
         for (const Ring& hole : holes_) {
-            auto place = visible_corner(hole, Rule::nothing);
-            if (!place) place = visible_corner(hole, Rule::touching);
+            auto place = visible_corner(hole, Touch::nothing);
+            if (!place) place = visible_corner(hole, Touch::touching);
             if (!place) return std::nullopt;
             Ring detour = {hole.begin(), hole.end()};
             detour.push_back(hole.front());
@@ -54,7 +54,7 @@ public:
 private:
     /// The place in the walk of the nearest corner that a bridge to the first corner of `hole` can start
     /// from.
-    [[nodiscard]] std::optional<std::size_t> visible_corner(const Ring& hole, Rule rule) const
+    [[nodiscard]] std::optional<std::size_t> visible_corner(const Ring& hole, Touch touch) const
     {
         const Point& end = points_[hole.front()];
         std::vector<std::size_t> places(walk_.size());
@@ -64,11 +64,11 @@ private:
             return glm::dot(way, way);
         });
         const auto found = std::ranges::find_if(
-            places, [&](std::size_t place) { return is_visible(place, hole, rule); });
+            places, [&](std::size_t place) { return is_visible(place, hole, touch); });
         return found == places.end() ? std::nullopt : std::optional(*found);
     }
 
-    [[nodiscard]] bool is_visible(std::size_t place, const Ring& hole, Rule rule) const
+    [[nodiscard]] bool is_visible(std::size_t place, const Ring& hole, Touch touch) const
     {
         const std::size_t n = walk_.size();
         const Point& start = points_[walk_[place]];
@@ -79,25 +79,25 @@ private:
                          target))
             return false;
         if (start == end) return true;
-        if (is_blocked(start, end, walk_, rule)) return false;
+        if (is_blocked(start, end, walk_, touch)) return false;
         return std::ranges::none_of(
-            holes_, [&](const Ring& other) { return is_blocked(start, end, other, rule); });
+            holes_, [&](const Ring& other) { return is_blocked(start, end, other, touch); });
     }
 
     [[nodiscard]] bool is_blocked(const Point& start, const Point& end, const Ring& ring,
-                                  Rule rule) const
+                                  Touch touch) const
     {
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const Point& a = points_[ring[i]];
             const Point& b = points_[ring[(i + 1) % ring.size()]];
             const int a_side = orientation(start, end, a);
             const int b_side = orientation(start, end, b);
-            if (rule == Rule::nothing && a_side == 0 && is_between(start, a, end)) return true;
+            if (touch == Touch::nothing && a_side == 0 && is_between(start, a, end)) return true;
             if (a_side * b_side >= 0) continue; // an edge along the line is seen at its corners
             const int start_side = orientation(a, b, start);
             const int end_side = orientation(a, b, end);
             if (start_side * end_side < 0) return true;
-            if (rule == Rule::nothing && (start_side == 0 || end_side == 0)) {
+            if (touch == Touch::nothing && (start_side == 0 || end_side == 0)) {
                 const Point& on = start_side == 0 ? start : end;
                 if (is_between(a, on, b)) return true;
             }

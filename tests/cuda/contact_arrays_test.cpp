@@ -82,7 +82,7 @@ RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())
     const scenes::Scene scene =
         cuda_test::touching_scene(kind, *rc::gen::inRange<std::uint32_t>(0, 1u << 30), gap);
     const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
-    check_end(scene, arrays, scene.camera->eye, arrays.eye, arrays.eye_contacts);
+    check_end(scene, arrays, scene.camera->eye, arrays.place(scene.camera->eye), arrays.eye_contacts);
     for (std::size_t i = 0; i < arrays.emitters.size(); ++i) {
         const gpu::Emitter& emitter = arrays.emitters[i];
         const gpu::Light& light = arrays.lights[i];

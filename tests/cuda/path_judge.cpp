@@ -100,11 +100,12 @@ std::optional<Judged> PathJudge::light_image(std::size_t s, bool found) const
     judged.value =
         last.alpha * scattered * geometric_term(last, eye) * ahead * world.camera.importance(w);
     if (judged.value == ref::Rgb(0)) return std::nullopt;
-    LineOfSight line{eye.point.position, 0, w, 8 * roundoff, true};
+    LineOfSight line{eye.point.position, end_slack(world, eye.point.position), w, 8 * roundoff, true};
     bool seen = false;
     if (last.kind == Vertex::Kind::surface) {
         line = line_from(last.point, -w);
         line.to = eye.point.position;
+        line.to_slack = end_slack(world, eye.point.position);
         seen = visible(world.geometry, last.point, eye.point.position, world.eye_on);
     } else {
         seen = !occluded(world.geometry, {eye.point.position, w, ref::Ray{}.t_max, world.eye_on});

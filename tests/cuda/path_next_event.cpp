@@ -77,6 +77,7 @@ std::optional<Judged> PathJudge::next_event(std::size_t t, bool found) const
                                    : world.scene.spot_lights[emitter.index].position;
         line = line_from(last.point, position - p);
         line.to = position;
+        line.to_slack = end_slack(world, position);
         if (emitter.kind == ref::EmitterKind::point) break;
         const auto& spot = world.scene.spot_lights[emitter.index];
         const double c = glm::dot(spot.direction, glm::normalize(p - position));

@@ -40,7 +40,7 @@ class Recorder {
 public:
     Recorder(const scenes::Scene& scene, int width, int height, bool roulette = true)
         : arrays_(gpu::scene_arrays(scene, roulette)),
-          scene_(memory_, executor_, arrays_, gpu::camera_of(scene, arrays_, width, height))
+          scene_(memory_, executor_, arrays_, gpu::camera_of(scene, arrays_.place, width, height))
     {}
     [[nodiscard]] gpu::Needs needs() const { return gpu::needs_of(arrays_); }
 

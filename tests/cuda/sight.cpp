@@ -3,7 +3,18 @@
 #include "tests/cuda/path_rounding.h"
 #include "tests/cuda/verdict.h"
 
+#include "scenes/contacts.h"
+
+#include <cmath>
+
 namespace cuda_test {
+
+double end_slack(const ref::World& world, const ref::Vec3& end)
+{
+    const double clearance = 16 * roundoff * world.geometry.diagonal();
+    if (scenes::surfaces_near(world.scene, end, clearance).empty()) return 0;
+    return 2 * std::sqrt(3.0) * clearance; // twice for a sphere, along three planes at right angles
+}
 
 void explain_sight(const ref::World& world, const LineOfSight& line, bool seen)
 {

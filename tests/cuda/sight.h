@@ -19,6 +19,11 @@ struct LineOfSight {
     std::optional<std::uint32_t> start = {}, end = {}; // the primitives that it leaves and comes to
 };
 
+/// How far the floats may have moved an end that is no surface, the eye or a light: not at all, unless
+/// it is on a surface or too near one for a float to tell on which side
+/// (cuda/transport/contact_arrays.cpp).
+double end_slack(const ref::World& world, const ref::Vec3& end);
+
 /// Nothing, if rounding can explain that the floats say `seen` and the reference the opposite: throws
 /// Undecided then, else Disagreement.
 [[noreturn]] void explain_sight(const ref::World& world, const LineOfSight& line, bool seen);

@@ -2,6 +2,7 @@
 
 #include "tests/cuda/followed_walk.h"
 #include "tests/cuda/path_rounding.h"
+#include "tests/cuda/sight.h"
 
 #include "ref/transport/emission.h"
 
@@ -122,8 +123,10 @@ NextStep first_of_light(const Setting& setting, const gpu::SampledEmission& emis
         break;
     }
     case ref::EmitterKind::point:
+        step.slack = end_slack(world, step.origin);
         break;
     case ref::EmitterKind::spot: {
+        step.slack = end_slack(world, step.origin);
         const auto& light = world.scene.spot_lights[emitter.index];
         const double cosine = glm::dot(light.direction, drawn.ray.direction);
         const double error = direction_error + cosine_error;
@@ -182,6 +185,8 @@ FollowedWalk followed_eye_walk(const Setting& setting, const WatchedSample& samp
     const ref::Camera& camera = setting.world.camera;
     const auto width = static_cast<std::uint32_t>(camera.width());
     const ref::Uniforms u = float_uniforms(setting.id, ref::Event::camera);
+    // Where the floats begin: contact_arrays_test.cpp says that it is on the right side of every
+    // surface.
     const ref::Ray ray = camera.ray({setting.id.pixel % width + u[0], setting.id.pixel / width + u[1]});
     const scenes::Camera& source = setting.world.scene.camera.value();
     const int across = source.fov_axis == scenes::FovAxis::horizontal ? camera.width() : camera.height();
@@ -189,7 +194,9 @@ FollowedWalk followed_eye_walk(const Setting& setting, const WatchedSample& samp
     FollowedWalk walk{{eye_vertex(setting.world)}, {0}, {0}};
     follow(setting, ref::Transport::radiance, sample.eye,
            static_cast<std::size_t>(setting.options.max_edges) + 1,
-           {ray.origin, 0, ray.direction, camera_direction_error(extent), ref::Rgb(1), 0}, walk);
+           {ray.origin, end_slack(setting.world, ray.origin), ray.direction,
+            camera_direction_error(extent), ref::Rgb(1), 0},
+           walk);
     return walk;
 }
 

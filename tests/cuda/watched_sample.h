@@ -68,7 +68,7 @@ class WatchedScene {
 public:
     WatchedScene(const scenes::Scene& scene, int width, int height, bool roulette)
         : arrays_(gpu::scene_arrays(scene, roulette)),
-          scene_(memory_, executor_, arrays_, gpu::camera_of(scene, arrays_, width, height))
+          scene_(memory_, executor_, arrays_, gpu::camera_of(scene, arrays_.place, width, height))
     {}
 
     /// How many vertices a light walk may have.

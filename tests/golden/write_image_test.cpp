@@ -39,7 +39,7 @@ TEST(WriteImage, TheEndingOfTheNameChoosesTheFormat)
 TEST(WriteImage, OtherEndingsAreRefusedByName)
 {
     const TemporaryFolder folder;
-    for (const char* name : {"a.jpg", "a", "exr", ".exr", "a.EXR", "a.exr.gz"}) {
+    for (const char* name : {"a.jpg", "a", "exr", ".exr", "a.exr.gz"}) {
         const std::string expected =
             (folder / name).string() + ": the name of a picture must end in .exr, .pfm or .png";
         EXPECT_EQ(error_of<ImageError>([&] { golden::write_image(folder / name, some_film(), {}); }),
