@@ -139,6 +139,7 @@ TEST_F(OddPixel, ThatIsFarTooBrightIsNamedAndTheRestJudgedWithoutIt)
          {"of pixel (25, 3) is 200, in the golden 0.", "Without it: No difference found; an error of",
           "would have been", "Another picture, with another seed"})
         EXPECT_NE(result.reason.find(part), std::string::npos) << result.reason;
+    EXPECT_FALSE(result.shortfall);
     // Of few samples it is not what hinders, and the reason says what does.
     Image few = picture(4, 7);
     few.at(25, 3) = Rgb(20.0);
