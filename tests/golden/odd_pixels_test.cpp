@@ -235,6 +235,24 @@ TEST(OddPixelWithoutNoise, APictureWithLessNoiseThanItsGoldenIsNotClipped)
     EXPECT_TRUE(golden::odd_pixels(maker.golden({}), image, 64.0, 1e-9).empty());
 }
 
+TEST(OddPixelWithoutNoise, APictureOfFewValuesIsNotClipped)
+{
+    // Half of the samples find light, and all find the same: of 4 samples, one value in four is 0.25.
+    std::mt19937_64 random(2);
+    const auto draw = [&] {
+        Image image(16, 16);
+        for (Rgb& pixel : image.pixels) {
+            int lit = 0;
+            for (int sample = 0; sample < 4; ++sample) lit += static_cast<int>(random() % 2);
+            pixel = Rgb(lit / 4.0);
+        }
+        return image;
+    };
+    golden::GoldenMaker maker(16, 16, 4);
+    for (int batch = 0; batch < 256; ++batch) maker.add_batch(draw());
+    EXPECT_TRUE(golden::odd_pixels(maker.golden({}), draw(), 1.0, 1e-9).empty());
+}
+
 TEST(OddPixelWithoutNoise, ALampThatIsSeenIsNotClipped)
 {
     // Many pixels have exactly the largest value, as the golden has.
