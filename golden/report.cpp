@@ -140,15 +140,17 @@ Json json_of(const OddPixels& odd)
     return json;
 }
 
-/// What would show an error of the specified size; null for what no number does.
+/// How many samples, or pictures, would show an error of the specified size; or, where no number does,
+/// what a golden would need.
 Json needed_by(const Comparison& comparison)
 {
-    const double candidate = comparison.shortfall->candidate;
-    const double golden = comparison.shortfall->golden;
-    const double size = comparison.batch_size;
-    if (comparison.method == Method::welch) return {{"pictures", candidate}, {"golden_batches", golden}};
-    if (!(size > 0.0)) return {{"batches", candidate}, {"golden_batches", golden}};
-    return {{"samples", candidate * size}, {"golden_samples", golden * size}};
+    const bool in_samples = comparison.batch_size > 0.0;
+    const double unit = in_samples ? comparison.batch_size : 1.0;
+    const std::string what = in_samples ? "samples" : "batches";
+    if (std::isinf(comparison.shortfall->candidate))
+        return {{"golden_" + what, comparison.shortfall->golden * unit}};
+    if (comparison.method == Method::welch) return {{"pictures", comparison.shortfall->candidate}};
+    return {{what, comparison.shortfall->candidate * unit}};
 }
 
 Json numbers_of(const Report& report)

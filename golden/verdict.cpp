@@ -180,6 +180,7 @@ void decide_without(Comparison& comparison, const Comparison& without, const Com
                                    [](double error) { return std::isinf(error); });
     const bool only_they_hinder = without.verdict == Verdict::pass;
     if (!only_they_hinder && (!blind || without.p < options.accuse)) return;
+    comparison.shortfall = without.shortfall;
     give_reason(comparison, "Without " + them + ": " + without.reason +
                                 " Another picture, with another seed, shows which it is: a rare bright "
                                 "sample moves, a defect stays where it is.");

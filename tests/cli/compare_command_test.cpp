@@ -139,6 +139,10 @@ TEST_F(CompareCommand, TooFewSamplesAreAskedForByNumber)
     const std::size_t end = few.out.find(instead);
     ASSERT_NE(end, std::string::npos) << few.out;
     const std::string needed = few.out.substr(few.out.rfind(' ', end - 1) + 1);
+    const auto json = nlohmann::json::parse(
+        compare({scene_file("directional_over_plane")}, {"-s", "64", "--seed", "7", "--json"}).out);
+    EXPECT_NEAR(json.at("needed").at("samples").get<double>(), std::stod(needed),
+                0.1 * std::stod(needed));
     const Outcome enough = compare({scene_file("directional_over_plane")},
                                    {"-s", needed.substr(0, needed.find(' ')), "--seed", "7"});
     EXPECT_EQ(enough.status, 0) << needed << enough.err << enough.out;

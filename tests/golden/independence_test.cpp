@@ -119,17 +119,47 @@ TEST_F(Independence, IsNotDeniedToWrongPictures)
     both([](Image& image) { std::reverse(image.pixels.begin(), image.pixels.end()); });
 }
 
-TEST_F(Independence, IsNotDeniedToPicturesThatAreBlackInMostPixels)
+TEST_F(Independence, IsToldWherePicturesAreNotBlack)
 {
-    // One sample in a hundred finds light, and finds the same.
+    // One sample in a hundred, or in eight, finds light, and finds the same.
     std::mt19937_64 random(5);
-    std::vector<Image> pictures(6, Image(golden_test::size, golden_test::size));
-    for (Image& image : pictures)
-        for (Rgb& pixel : image.pixels)
-            if (random() % 100 == 0) pixel = Rgb(50.0);
-    EXPECT_FALSE(shared_noise(reference(), pictures));
-    pictures.resize(2);
-    EXPECT_FALSE(shared_noise(reference(), pictures));
+    const auto draw = [&](std::uint64_t one_in) {
+        std::vector<Image> pictures(6, Image(golden_test::size, golden_test::size));
+        for (Image& image : pictures)
+            for (Rgb& pixel : image.pixels)
+                if (random() % one_in == 0) pixel = Rgb(50.0);
+        return pictures;
+    };
+    for (const std::uint64_t one_in : {8u, 100u}) {
+        std::vector<Image> pictures = draw(one_in);
+        EXPECT_FALSE(shared_noise(reference(), pictures));
+        pictures.resize(2);
+        EXPECT_FALSE(shared_noise(reference(), pictures));
+    }
+    std::vector<Image> doubled = draw(8);
+    doubled[4] = doubled[1];
+    EXPECT_TRUE(shared_noise(reference(), doubled));
+}
+
+TEST_F(Independence, IsNotDeniedToTwoGoodPicturesBesideAPoorOne)
+{
+    EXPECT_FALSE(
+        shared_noise(reference(), std::vector{picture(512, 60), picture(512, 61), picture(2, 62)}));
+}
+
+TEST(IndependenceWithoutNoise, IsNotDeniedToPicturesWithRareEvents)
+{
+    // Right and without noise in nearly all pixels, where the golden has seen rare events.
+    std::mt19937_64 random(6);
+    const auto draw = [&](std::uint64_t one_in) {
+        Image image(32, 32);
+        for (Rgb& pixel : image.pixels) pixel = Rgb(random() % one_in == 0 ? 3.0 : 1.0);
+        return image;
+    };
+    golden::GoldenMaker maker(32, 32, 64);
+    for (int batch = 0; batch < 256; ++batch) maker.add_batch(draw(100));
+    EXPECT_FALSE(shared_noise(maker.golden({}), std::vector{draw(100), draw(100)}));
+    EXPECT_FALSE(shared_noise(maker.golden({}), std::vector{draw(100), draw(100), draw(100)}));
 }
 
 TEST(IndependenceWithoutNoise, EqualPicturesAreRight)

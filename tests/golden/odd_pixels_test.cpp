@@ -139,6 +139,7 @@ TEST_F(OddPixel, ThatIsFarTooBrightIsNamedAndTheRestJudgedWithoutIt)
          {"of pixel (25, 3) is 200, in the golden 0.", "Without it: No difference found; an error of",
           "would have been", "Another picture, with another seed"})
         EXPECT_NE(result.reason.find(part), std::string::npos) << result.reason;
+    EXPECT_FALSE(result.shortfall);
     // Of few samples it is not what hinders, and the reason says what does.
     Image few = picture(4, 7);
     few.at(25, 3) = Rgb(20.0);
@@ -147,10 +148,22 @@ TEST_F(OddPixel, ThatIsFarTooBrightIsNamedAndTheRestJudgedWithoutIt)
     EXPECT_EQ(inconclusive.verdict, Verdict::inconclusive);
     EXPECT_NE(inconclusive.reason.find("samples per pixel are needed instead of 16."), std::string::npos)
         << inconclusive.reason;
-    // What is too bright without it fails; what is too dark may lack the light of such pixels.
-    Image bright = picture(batches, 7, {.everywhere = 1.2});
-    bright.at(25, 3) = Rgb(200.0);
-    EXPECT_EQ(judge(bright).verdict, Verdict::fail) << judge(bright).reason;
+}
+
+TEST_F(OddPixel, ThatIsFarTooBrightHidesNoOtherError)
+{
+    // Only the whole picture shows so little for certain, and of its mean one pixel makes a tenth. What
+    // is too bright without it fails; what is too dark may lack the light of such pixels.
+    const auto with_one = [](double everywhere) {
+        Image image = picture(batches, 7, {.everywhere = everywhere});
+        image.at(25, 3) = Rgb(50.0);
+        return judge(image);
+    };
+    const Comparison bright = with_one(1.016);
+    EXPECT_EQ(bright.verdict, Verdict::fail) << bright.reason;
+    EXPECT_NE(bright.reason.find(" Without it, "), std::string::npos) << bright.reason;
+    EXPECT_NE(with_one(0.984).verdict, Verdict::fail) << with_one(0.984).reason;
+    EXPECT_EQ(with_one(0.984).verdict, Verdict::inconclusive);
 }
 
 TEST_F(OddPixel, ThatHindersNothingIsNamedInAPass)
@@ -203,6 +216,41 @@ TEST_F(OddPixel, IsNeverWrongInARightPictureWhateverItsNoise)
                 EXPECT_FALSE(odd.wrong) << name(noise) << ": " << describe(odd);
         }
     }
+}
+
+TEST(OddPixelWithoutNoise, APictureWithLessNoiseThanItsGoldenIsNotClipped)
+{
+    // In half of the pixels the golden's noise makes it brighter than what is right and the same
+    // everywhere.
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> noise(1.0, 0.2);
+    golden::GoldenMaker maker(16, 16, 4);
+    for (int batch = 0; batch < 64; ++batch) {
+        Image image(16, 16);
+        for (Rgb& pixel : image.pixels) pixel = Rgb(noise(random));
+        maker.add_batch(image);
+    }
+    Image image(16, 16);
+    for (Rgb& pixel : image.pixels) pixel = Rgb(1.0);
+    EXPECT_TRUE(golden::odd_pixels(maker.golden({}), image, 64.0, 1e-9).empty());
+}
+
+TEST(OddPixelWithoutNoise, APictureOfFewValuesIsNotClipped)
+{
+    // Half of the samples find light, and all find the same: of 4 samples, one value in four is 0.25.
+    std::mt19937_64 random(2);
+    const auto draw = [&] {
+        Image image(16, 16);
+        for (Rgb& pixel : image.pixels) {
+            int lit = 0;
+            for (int sample = 0; sample < 4; ++sample) lit += static_cast<int>(random() % 2);
+            pixel = Rgb(lit / 4.0);
+        }
+        return image;
+    };
+    golden::GoldenMaker maker(16, 16, 4);
+    for (int batch = 0; batch < 256; ++batch) maker.add_batch(draw());
+    EXPECT_TRUE(golden::odd_pixels(maker.golden({}), draw(), 1.0, 1e-9).empty());
 }
 
 TEST(OddPixelWithoutNoise, ALampThatIsSeenIsNotClipped)

@@ -46,6 +46,12 @@ TEST_F(Reason, OfTheSameFactorEverywhereMayBeTheExposure)
 {
     const std::string exposure = "the same factor everywhere";
     EXPECT_NE(causes(picture(256, 7, {.everywhere = 0.5})).find(exposure), std::string::npos);
+    // Of few samples, of which each tile may be right.
+    const Image noisy = picture(1, 7, {.everywhere = 0.7});
+    const golden::Golden golden = six_edges();
+    const Comparison result = golden::compare_picture(golden, noisy, 4.0);
+    EXPECT_EQ(result.verdict, golden::Verdict::fail) << result.reason;
+    EXPECT_EQ(say_possible_causes(result, golden, {}, noisy).find(exposure), std::string::npos);
     EXPECT_EQ(causes(picture(256, 7, {.everywhere = 0.0})).find(exposure), std::string::npos);
     EXPECT_EQ(causes(picture(256, 7, {.in_caustic = 0.5, .in_shadow = 2.0})).find(exposure),
               std::string::npos);
