@@ -119,7 +119,7 @@ ExitStatus bvh(const Options& options)
                            {{"the scene", options.scene}});
     for (const std::string& path : {options.picture, options.figure})
         if (!path.empty()) golden::check_place(path);
-    const scenes::Scene scene = load_scene(options.scene, options.frame, options.quiet);
+    const scenes::Scene scene = load_triangles(options.scene, options.frame, options.quiet);
 
     if (!options.figure.empty()) golden::write_atomically(options.figure, figure_of(scene, options));
     if (!options.picture.empty()) {

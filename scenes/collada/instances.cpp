@@ -57,6 +57,11 @@ void Instances::add_geometry(const Element& instance, const Matrix& to_world)
 
 void Instances::add_mesh(const Mesh& mesh, const Element& instance, const Matrix& to_world)
 {
+    if (parts_ == Parts::geometry) {
+        for (const Part& part : mesh)
+            if (!part.triangles.empty()) add_triangles(part.triangles, 0, instance, to_world);
+        return;
+    }
     const MaterialBinding binding(*document_, instance);
     for (const Part& part : mesh) {
         if (part.triangles.empty()) continue;
@@ -92,8 +97,11 @@ void Instances::add_sphere(const LocalSphere& sphere, const Element& instance, c
                            (linear.orthogonal ? "" : " and shears it"));
     check_room(1, instance);
     const double scale = (linear.lengths.x + linear.lengths.y + linear.lengths.z) / 3;
-    const Sphere world{world_position(to_world, instance), scale * sphere.radius,
-                       materials_.index_of(MaterialBinding(*document_, instance).only_material())};
+    const std::uint32_t material =
+        parts_ == Parts::geometry
+            ? 0
+            : materials_.index_of(MaterialBinding(*document_, instance).only_material());
+    const Sphere world{world_position(to_world, instance), scale * sphere.radius, material};
     if (!(world.radius > 0) || !is_finite(Vec3(world.radius)))
         fail(instance, "the transform of its node leaves the sphere no finite radius");
     scene_->spheres.push_back(world);
@@ -107,6 +115,7 @@ void Instances::check_room(std::size_t more, const Element& instance) const
 
 void Instances::add_light(const Element& instance, const Matrix& to_world)
 {
+    if (parts_ == Parts::geometry) return;
     check_children(instance, {});
     const Element& element = document_->target(instance, "url", "light");
     const Light light = read_light(element);
@@ -130,6 +139,19 @@ void Instances::add_light(const Element& instance, const Matrix& to_world)
 
 void Instances::add_camera(const Element& instance, const Matrix& to_world)
 {
+    if (parts_ == Parts::all) {
+        place_camera(instance, to_world);
+        return;
+    }
+    try {
+        place_camera(instance, to_world);
+    } catch (const SceneError& error) { // trees need no camera
+        scene_->notices.push_back(error.what() + std::string(": this camera is not used"));
+    }
+}
+
+void Instances::place_camera(const Element& instance, const Matrix& to_world)
+{
     check_children(instance, {});
     const Element& camera = document_->target(instance, "url", "camera");
     if (!scene_->camera) {
@@ -142,6 +164,7 @@ void Instances::add_camera(const Element& instance, const Matrix& to_world)
 
 void Instances::finish()
 {
+    if (parts_ == Parts::geometry) return;
     if (has_emissive_geometry(*scene_)) {
         if (!area_lights_.empty())
             scene_->notices.push_back(
