@@ -29,8 +29,8 @@ std::string shown_name(const std::string& file);
 /// scenes::SceneError or std::invalid_argument.
 scenes::Scene load_scene(const std::string& file, bool frame, bool quiet);
 
-/// The same for a tree, which needs triangles and spheres and nothing else: no lights and no materials are
-/// read (scenes::Parts::geometry), and the file may also be one that scenes::read_mesh reads.
+/// The same for a tree, which needs triangles and spheres and nothing else: no lights and no materials
+/// are read (scenes::Parts::geometry), and the file may also be one that scenes::read_mesh reads.
 scenes::Scene load_triangles(const std::string& file, bool frame, bool quiet);
 
 } // namespace cli

@@ -25,11 +25,12 @@ void add_camera(Scene& scene)
 {
     const Vec3 backward = glm::normalize(Vec3(1, -2, 1));
     const Vec3 right = glm::normalize(glm::cross(Vec3(0, 0, 1), backward));
-    scene.camera = Camera{Vec3(0.0),           right, glm::cross(backward, right), backward,
-                          FovAxis::horizontal, glm::radians(45.0)};
+    scene.camera =
+        Camera{Vec3(0.0),         right, glm::cross(backward, right), backward, FovAxis::horizontal,
+               glm::radians(45.0)};
     frame_camera(scene);
     scene.notices.emplace_back("no camera: seen from the front, right and above, along (-1, 2, -1) "
-                                "with z up, the whole in view, at 45 degrees horizontally");
+                               "with z up, the whole in view, at 45 degrees horizontally");
 }
 
 } // namespace scenes

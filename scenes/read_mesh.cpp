@@ -1,6 +1,7 @@
 #include "scenes/read_mesh.h"
 
 #include "scenes/file_bytes.h"
+#include "scenes/mesh_damage.h"
 #include "scenes/plain_material.h"
 #include "scenes/polygons/triangulate.h"
 #include "scenes/read_scene.h"
@@ -62,8 +63,9 @@ public:
         note(faults_.zero_area, " triangle(s) of zero area: kept, but they do not stop a ray");
         note(faults_.non_planar,
              " polygon(s) are not planar: cut into triangles as their projection on the mean plane");
-        note(faults_.crossed, " polygon(s) cross themselves: cut into triangles around the first corner, "
-                              "which cover other than they do");
+        note(faults_.crossed,
+             " polygon(s) cross themselves: cut into triangles around the first corner, "
+             "which cover other than they do");
     }
 
 private:
@@ -146,6 +148,13 @@ Scene read_mesh(const std::filesystem::path& path)
     scene.name = path.stem().string();
     scene.hash = hash_of(bytes);
     add_plain_material(scene);
+
+    const std::string ending = lower_case_ending(path);
+    const std::string damage = ending == ".ply"   ? damage_of_ply(bytes)
+                               : ending == ".stl" ? damage_of_stl(bytes)
+                               : ending == ".glb" ? damage_of_glb(bytes)
+                                                  : "";
+    if (!damage.empty()) throw SceneError(name + ": " + damage);
 
     Assimp::Importer importer;
     // No step that joins, drops or reorders triangles: this one only looks at them.

@@ -23,9 +23,9 @@ public:
 /// How much of a file is read.
 enum class Parts {
     all,
-    /// What a tree is built over: triangles and spheres, all of one grey material, and the camera. Lights
-    /// (area lights too) and materials are not read, so nothing in them is an error, and a camera that
-    /// cannot be read is a notice.
+    /// What a tree is built over: triangles and spheres, all of one grey material, and the camera.
+    /// Lights (area lights too) and materials are not read, so nothing in them is an error, and a camera
+    /// that cannot be read is a notice.
     geometry
 };
 
