@@ -71,7 +71,7 @@ void print_table(const nlohmann::json& report)
         column("diffuse_primitives_per_ray", 7, 1);
         std::cout << '\n';
     }
-    std::cout << "Mrays/s: standard error at most " << std::setprecision(1) << 100 * error << "%\n";
+    std::cout << "Mrays/s: standard error up to " << std::setprecision(1) << 100 * error << "%\n";
 }
 
 /// The figure of the radix tree over the scene's primitives. Throws std::invalid_argument.

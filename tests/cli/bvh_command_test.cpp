@@ -33,7 +33,8 @@ INSTANTIATE_TEST_SUITE_P(
         Idle{"LevelOfVisits",
              {"--picture", "PNG", "--show", "visits", "--level", "4"},
              "--level 4 has no effect with --show visits"},
-        Idle{"SizeOfAFigure", {"--tree", "SVG", "--size", "8x8"}, "--size 8x8 has no effect with --tree"},
+        Idle{
+            "SizeOfAFigure", {"--tree", "SVG", "--size", "8x8"}, "--size 8x8 has no effect with --tree"},
         Idle{"SizeOfBuildTimes",
              {"--device", "host", "--size", "8x8"},
              "--size 8x8 has no effect with --device host"},
@@ -83,19 +84,19 @@ TEST(Bvh, TakesTheSameOptionsWhereTheyHaveAnEffect)
 TEST(Bvh, TellsHowPreciselyItTimedRays)
 {
     const TemporaryFolder folder;
-    write_bytes(folder / "one.dae",
-                "<COLLADA version=\"1.4.1\"><library_geometries><geometry id=\"g\"><mesh><source id=\"p\">"
-                "<float_array id=\"a\" count=\"9\">0 0 0 1 0 0 0 1 0</float_array><technique_common>"
-                "<accessor source=\"#a\" count=\"3\" stride=\"3\"><param name=\"X\" type=\"float\"/>"
-                "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
-                "</technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" "
-                "source=\"#p\"/></vertices><triangles count=\"1\"><input semantic=\"VERTEX\" "
-                "source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>"
-                "</library_geometries><library_visual_scenes><visual_scene id=\"s\"><node>"
-                "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes>"
-                "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
-    Process process({"bvh", (folder / "one.dae").string(), "--json", "-q"});
-    const Outcome outcome = process.finish();
+    write_bytes(
+        folder / "one.dae",
+        "<COLLADA version=\"1.4.1\"><library_geometries><geometry id=\"g\"><mesh><source id=\"p\">"
+        "<float_array id=\"a\" count=\"9\">0 0 0 1 0 0 0 1 0</float_array><technique_common>"
+        "<accessor source=\"#a\" count=\"3\" stride=\"3\"><param name=\"X\" type=\"float\"/>"
+        "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
+        "</technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" "
+        "source=\"#p\"/></vertices><triangles count=\"1\"><input semantic=\"VERTEX\" "
+        "source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>"
+        "</library_geometries><library_visual_scenes><visual_scene id=\"s\"><node>"
+        "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes>"
+        "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+    const Outcome outcome = run({"bvh", (folder / "one.dae").string(), "--json", "-q"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto report = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(report["primitives"], 1);

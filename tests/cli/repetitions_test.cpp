@@ -53,8 +53,7 @@ TEST(Repetitions, GoOnUntilTheMeanIsAsPreciseAsAskedFor)
     EXPECT_EQ(measured.count, 27);
     const double mean = 1 - 0.1 / 27;
     EXPECT_NEAR(measured.seconds, mean, 1e-12);
-    EXPECT_NEAR(measured.relative_standard_error,
-                std::sqrt(0.01 * (1 - 1 / 729.0) / 26) / mean, 1e-12);
+    EXPECT_NEAR(measured.relative_standard_error, std::sqrt(0.01 * (1 - 1 / 729.0) / 26) / mean, 1e-12);
     EXPECT_LT(measured.relative_standard_error, 0.02);
 }
 

@@ -63,9 +63,9 @@ TEST_F(SceneWithoutCamera, IsFramedWithANotice)
 
 TEST_F(SceneWithoutCamera, AndWithoutGeometryIsAnError)
 {
-    const std::string file = write(
-        "<COLLADA version=\"1.4.1\"><library_visual_scenes><visual_scene id=\"s\"/></library_visual_scenes>"
-        "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+    const std::string file = write("<COLLADA version=\"1.4.1\"><library_visual_scenes><visual_scene "
+                                   "id=\"s\"/></library_visual_scenes>"
+                                   "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
     const std::string picture = (folder / "a.pfm").string();
     for (const Arguments& arguments : {Arguments{"render", file, "-o", picture}, {"bvh", file}}) {
         const Outcome outcome = run(arguments);
@@ -80,18 +80,20 @@ TEST_F(SceneWithoutCamera, AndWithoutGeometryIsAnError)
 TEST_F(SceneWithoutCamera, HasTreesWhateverItsLightsMaterialsAndCameraAre)
 {
     const auto cost = [&](const std::string& text) {
-        const Outcome outcome = run({"bvh", write(text), "--builder", "sah", "--json", "--size", "4x4",
-                                     "--repeats", "1"});
+        const Outcome outcome =
+            run({"bvh", write(text), "--builder", "sah", "--json", "--size", "4x4", "--repeats", "1"});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         const auto json = nlohmann::json::parse(outcome.out);
         return std::pair(json["primitives"].get<int>(), json["builders"][0]["sah_cost"].get<double>());
     };
     const std::string room = text_of("cornell_diffuse");
     const auto right = cost(room);
-    EXPECT_EQ(cost(replaced(room, "<diffuse>", "<diffuse><texture texture=\"t\" texcoord=\"u\"/>")), right);
-    EXPECT_EQ(cost(replaced(room, "<bind_material>", "<bind_material><none/>")), right);
-    EXPECT_EQ(cost(replaced(room, "<instance_camera", "<instance_light url=\"#none\"/><instance_camera")),
+    EXPECT_EQ(cost(replaced(room, "<diffuse>", "<diffuse><texture texture=\"t\" texcoord=\"u\"/>")),
               right);
+    EXPECT_EQ(cost(replaced(room, "<bind_material>", "<bind_material><none/>")), right);
+    EXPECT_EQ(
+        cost(replaced(room, "<instance_camera", "<instance_light url=\"#none\"/><instance_camera")),
+        right);
     EXPECT_EQ(cost(replaced(room, "<perspective>", "<perspective><none/>")), right);
     EXPECT_EQ(cost(without_camera(room)), right);
 }
@@ -134,7 +136,8 @@ TEST_F(SceneWithoutCamera, OrAnyFromStandardInputGivesThePictureOfItsFile)
 
 TEST_F(SceneWithoutCamera, StandardInputIsNamedInMessages)
 {
-    const std::string file = write(replaced(text_of("cornell_diffuse"), "<perspective>", "<perspektive>"));
+    const std::string file =
+        write(replaced(text_of("cornell_diffuse"), "<perspective>", "<perspektive>"));
     const std::string picture = (folder / "a.pfm").string();
     for (const Arguments& arguments : {Arguments{"render", "-", "-o", picture}, {"bvh", "-"}}) {
         const Outcome outcome = run_with_input(file, arguments);
