@@ -9,13 +9,16 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -132,6 +135,37 @@ private:
     std::size_t lines_ = 0;
 };
 
+/// Keeps what Assimp says of triangles that it leaves out: it does so only in its log, of which there is
+/// one in a process.
+class DropListener {
+public:
+    DropListener()
+    {
+        // The logger deletes the stream.
+        Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0)
+            ->attachStream(new Stream(dropped_), Assimp::Logger::Warn | Assimp::Logger::Err);
+    }
+    ~DropListener() { Assimp::DefaultLogger::kill(); }
+    DropListener(const DropListener&) = delete;
+    DropListener& operator=(const DropListener&) = delete;
+
+    [[nodiscard]] bool dropped() const { return dropped_; }
+
+private:
+    class Stream : public Assimp::LogStream {
+    public:
+        explicit Stream(bool& dropped) : dropped_(&dropped) {}
+        void write(const char* message) override
+        {
+            if (std::string_view(message).find("dropped") != std::string_view::npos) *dropped_ = true;
+        }
+
+    private:
+        bool* dropped_;
+    };
+    bool dropped_ = false;
+};
+
 /// The first line of what Assimp says.
 std::string first_line(std::string text)
 {
@@ -156,10 +190,14 @@ Scene read_mesh(const std::filesystem::path& path)
                                                   : "";
     if (!damage.empty()) throw SceneError(name + ": " + damage);
 
+    const DropListener listener;
     Assimp::Importer importer;
     // No step that joins, drops or reorders triangles: this one only looks at them.
     const aiScene* file = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
     if (file == nullptr) throw SceneError(name + ": " + first_line(importer.GetErrorString()));
+    if (listener.dropped())
+        throw SceneError(name +
+                         ": some faces are damaged: a vertex that is not there, or too few corners");
     Collector collector(*file, name, scene);
     collector.visit(*file->mRootNode, glm::dmat4(1.0));
     collector.finish();
