@@ -167,7 +167,7 @@ private:
 };
 
 /// The first line of what Assimp says.
-std::string first_line(std::string text)
+std::string first_line(const std::string& text)
 {
     return text.substr(0, text.find_first_of("\r\n"));
 }
