@@ -4,9 +4,11 @@
 
 #include "cli/builders.h"
 #include "cli/bvh_measure.h"
+#include "cli/bvh_options.h"
 #include "cli/bvh_picture.h"
 #include "cli/bvh_stages.h"
 #include "cli/bvh_svg.h"
+#include "cli/idle_options.h"
 #include "cli/output_files.h"
 #include "cli/scene_input.h"
 #include "golden/atomic_file.h"
@@ -28,21 +30,7 @@ namespace cli {
 
 namespace {
 
-struct Options {
-    std::string scene;
-    std::string builder;
-    std::string picture;
-    std::string show = "boxes";
-    std::string figure;
-    int level = 4;
-    int repeats = 5;
-    std::string device;
-    unsigned threads = 1;
-    std::string size = "240x160";
-    bool frame = false;
-    bool json = false;
-    bool quiet = false;
-};
+using Options = BvhCommand;
 
 /// The builder that was named, or all.
 std::vector<NamedBuilder> chosen(const Options& options)
@@ -61,7 +49,10 @@ void print_table(const nlohmann::json& report)
               << "builder    build ms  SAH cost  depth  |  camera: Mrays/s  nodes  prims  |  diffuse: "
                  "Mrays/s  nodes  "
                  "prims\n";
+    double error = 0; // the largest of all
     for (const auto& b : report["builders"]) {
+        for (const char* key : {"camera_relative_standard_error", "diffuse_relative_standard_error"})
+            if (b[key].is_number()) error = std::max(error, b[key].get<double>());
         const auto column = [&](const char* key, int width, int digits) {
             std::cout << std::fixed << std::setprecision(digits) << std::setw(width)
                       << b[key].get<double>();
@@ -80,6 +71,7 @@ void print_table(const nlohmann::json& report)
         column("diffuse_primitives_per_ray", 7, 1);
         std::cout << '\n';
     }
+    std::cout << "Mrays/s: standard error up to " << std::setprecision(1) << 100 * error << "%\n";
 }
 
 /// The figure of the radix tree over the scene's primitives. Throws std::invalid_argument.
@@ -90,7 +82,7 @@ std::string figure_of(const scenes::Scene& scene, const Options& options)
     if (named.builder != ref::Builder::morton30 && named.builder != ref::Builder::morton63)
         throw std::invalid_argument("--tree draws radix trees: not those of " + options.builder);
     if (boxes.empty() || boxes.size() > most_keys_in_figure)
-        throw std::invalid_argument(options.scene + ": has " + std::to_string(boxes.size()) +
+        throw std::invalid_argument(shown_name(options.scene) + ": has " + std::to_string(boxes.size()) +
                                     " primitives: --tree draws from 1 to " +
                                     std::to_string(most_keys_in_figure));
     const int bits_per_axis = named.builder == ref::Builder::morton30 ? 10 : 21;
@@ -119,7 +111,7 @@ ExitStatus bvh(const Options& options)
                            {{"the scene", options.scene}});
     for (const std::string& path : {options.picture, options.figure})
         if (!path.empty()) golden::check_place(path);
-    const scenes::Scene scene = load_scene(options.scene, options.frame, options.quiet);
+    const scenes::Scene scene = load_triangles(options.scene, options.frame, options.quiet);
 
     if (!options.figure.empty()) golden::write_atomically(options.figure, figure_of(scene, options));
     if (!options.picture.empty()) {
@@ -135,8 +127,7 @@ ExitStatus bvh(const Options& options)
             print_stages(stages);
         return stages["plausible"].get<bool>() ? fine : check_failed;
     }
-    const bool only_drawn = !options.figure.empty() || !options.picture.empty();
-    if (only_drawn && !options.json) return fine;
+    if (!measures_builders(options)) return fine;
 
     nlohmann::json report = {{"scene", scene.name},
                              {"primitives", scenes::primitive_count(scene)},
@@ -159,38 +150,15 @@ void add_bvh_command(CLI::App& program, Work& work)
     const auto options = std::make_shared<Options>();
     CLI::App* command =
         program.add_subcommand("bvh", "Build, measure and draw the trees of a scene file");
-    command->add_option("scene", options->scene, "COLLADA file")->required();
-    command->add_option("--builder", options->builder, "morton30, morton63, sah or sah-leaf [all]")
-        ->check(CLI::IsMember(builder_names()));
-    command->add_option("--picture", options->picture, "Draw what --show says: .png");
-    command
-        ->add_option("--show", options->show,
-                     "boxes; order (of leaves, in 16 pieces); visits (boxes entered)")
-        ->check(CLI::IsMember({"boxes", "order", "visits"}))
-        ->capture_default_str();
-    command->add_option("--level", options->level, "Which boxes: those at this depth, root 0")
-        ->check(CLI::Range(0, 1000))
-        ->capture_default_str();
-    command->add_option("--tree", options->figure,
-                        "Draw keys, ranges and splits of few primitives: .svg");
-    command->add_option("--size", options->size, "Of the picture, and of the grid of camera rays")
-        ->capture_default_str();
-    command->add_option("--repeats", options->repeats, "Builds, of which the median time counts")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    command
-        ->add_option("--device", options->device, "Time the stages of the fast path instead: host, cuda")
-        ->check(CLI::IsMember({"host", "cuda"}));
-    command->add_option("-t,--threads", options->threads, "For --device host")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
-    command->add_flag("--frame", options->frame,
-                      "Move the camera back to where it sees the whole scene");
-    command->add_flag("--json", options->json, "Print one JSON object");
-    command->add_flag("-q,--quiet", options->quiet, "No notices");
+    add_bvh_options(*command, *options);
     command->footer(
         "Example: plumbline bvh scenes/cornell_diffuse.dae --builder sah --picture boxes.png --level 3");
-    command->callback([options, &work] { work = [options] { return bvh(*options); }; });
+    command->callback([options, command, &work] {
+        work = [options, command] {
+            expect_no_idle_options(*command, *options);
+            return bvh(*options);
+        };
+    });
 }
 
 } // namespace cli

@@ -1,5 +1,6 @@
 #include "cli/bvh_measure.h"
 
+#include "cli/repetitions.h"
 #include "cli/resources.h"
 #include "ref/transport/camera.h"
 #include "ref/transport/random.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -31,6 +33,7 @@ double cpu_seconds_of(Function work)
 /// What rays of one kind cost, on average.
 struct RayCost {
     double mrays_per_s = 0;
+    std::optional<double> relative_standard_error{}; // of mrays_per_s; none without rays
     double nodes_per_ray = 0;
     double primitives_per_ray = 0;
 };
@@ -39,21 +42,23 @@ RayCost measure(const ref::Geometry& geometry, const std::vector<ref::Ray>& rays
 {
     if (rays.empty()) return {};
     ref::Work work;
-    double seconds = 0;
-    std::uint64_t traced = 0;
     std::uint64_t hits = 0;
-    while (seconds < 0.3) { // the clock ticks in microseconds: 0.3 s make its error vanish
+    const Repetitions timed = repeat_until_precise(cpu_seconds, [&] {
         work = {};
-        seconds += cpu_seconds_of([&] {
-            for (const ref::Ray& ray : rays) hits += intersect(geometry, ray, &work) ? 1 : 0;
-        });
-        traced += rays.size();
-    }
-    if (hits > traced)
+        hits = 0;
+        for (const ref::Ray& ray : rays) hits += intersect(geometry, ray, &work) ? 1 : 0;
+    });
+    if (hits > rays.size())
         throw std::logic_error("more hits than rays"); // keeps the loop from being dropped
     const auto count = static_cast<double>(rays.size());
-    return {static_cast<double>(traced) / seconds * 1e-6, static_cast<double>(work.nodes) / count,
-            static_cast<double>(work.primitives) / count};
+    return {count / timed.seconds * 1e-6, timed.relative_standard_error,
+            static_cast<double>(work.nodes) / count, static_cast<double>(work.primitives) / count};
+}
+
+/// As JSON has it: null where there is none.
+nlohmann::json json_of(const std::optional<double>& number)
+{
+    return number ? nlohmann::json(*number) : nlohmann::json();
 }
 
 struct Rays {
@@ -112,9 +117,11 @@ nlohmann::json measure_builder(const scenes::Scene& scene, const NamedBuilder& n
             {"overlap", quality.overlap},
             {"nodes", geometry.tree().nodes.size()},
             {"camera_mrays_per_s", camera.mrays_per_s},
+            {"camera_relative_standard_error", json_of(camera.relative_standard_error)},
             {"camera_nodes_per_ray", camera.nodes_per_ray},
             {"camera_primitives_per_ray", camera.primitives_per_ray},
             {"diffuse_mrays_per_s", diffuse.mrays_per_s},
+            {"diffuse_relative_standard_error", json_of(diffuse.relative_standard_error)},
             {"diffuse_nodes_per_ray", diffuse.nodes_per_ray},
             {"diffuse_primitives_per_ray", diffuse.primitives_per_ray}};
 }

@@ -40,17 +40,53 @@ std::vector<Rule> rules_for(const RenderCommand& options)
     };
 }
 
-} // namespace
-
-void expect_no_idle_options(const CLI::App& command, const RenderCommand& options)
+std::vector<Rule> rules_for(const BvhCommand& options)
 {
-    for (const Rule& rule : rules_for(options)) {
+    const bool picture = !options.picture.empty();
+    const bool draws = picture || !options.figure.empty();
+    const bool rays = picture || measures_builders(options);
+    const bool times = !options.device.empty() || measures_builders(options);
+    const std::string with_device = "with --device " + options.device + ": ";
+    // What else the command does when it sends no rays.
+    const std::string without_rays = options.device.empty()
+                                         ? "with --tree: no picture is drawn and no ray is sent"
+                                         : with_device + "no picture is drawn and no ray is sent";
+    return {
+        {"--builder", !options.device.empty() && !draws,
+         with_device + "the fast path has trees of its own"},
+        {"--show", !picture, "without --picture: it says what that shows"},
+        {"--level", !picture, "without --picture: it says which boxes that shows"},
+        {"--level", options.show != "boxes", "with --show " + options.show + ": it is for boxes"},
+        {"--size", !rays, without_rays},
+        {"--frame", !rays, without_rays},
+        {"--repeats", !times,
+         std::string("with --") + (picture ? "picture" : "tree") + ": no build is timed without --json"},
+        {"--threads", options.device.empty(), "without --device host: the reference has one"},
+        {"--threads", options.device == "cuda", with_device + "it is for the host's processor"},
+    };
+}
+
+void expect_not_idle(const CLI::App& command, const std::vector<Rule>& rules)
+{
+    for (const Rule& rule : rules) {
         const CLI::Option& option = *command.get_option(rule.option);
         if (!rule.idle || option.count() == 0) continue;
         const bool flag = option.get_expected_max() == 0;
         throw std::invalid_argument(rule.option + (flag ? "" : " " + option.results().front()) +
                                     " has no effect " + rule.beside);
     }
+}
+
+} // namespace
+
+void expect_no_idle_options(const CLI::App& command, const RenderCommand& options)
+{
+    expect_not_idle(command, rules_for(options));
+}
+
+void expect_no_idle_options(const CLI::App& command, const BvhCommand& options)
+{
+    expect_not_idle(command, rules_for(options));
 }
 
 } // namespace cli

@@ -1,7 +1,8 @@
 #pragma once
 
-// Options of `plumbline render` that were given and would change nothing.
+// Options of `plumbline render` and `plumbline bvh` that were given and would change nothing.
 
+#include "cli/bvh_options.h"
 #include "cli/render_options.h"
 
 #include <CLI/CLI.hpp>
@@ -12,5 +13,6 @@ namespace cli {
 /// effect beside the others in `options`: the message names both. An option that asks for what holds
 /// anyway (--deterministic with --device ref) is fulfilled, and no error.
 void expect_no_idle_options(const CLI::App& command, const RenderCommand& options);
+void expect_no_idle_options(const CLI::App& command, const BvhCommand& options);
 
 } // namespace cli

@@ -170,7 +170,7 @@ ExitStatus render(const RenderCommand& options)
                          size.width * size.height;
     const RenderRun run{scene, film, mean, dropped, rendering.kernel(), samples, seconds, cpu};
     for (const std::string& warning : warnings(run))
-        std::cerr << "plumbline: warning: " << options.scene << ": " << warning << '\n';
+        std::cerr << "plumbline: warning: " << shown_name(options.scene) << ": " << warning << '\n';
     if (options.json) std::cout << render_json(options, run) << std::endl;
     if (complete) return fine;
     std::cerr << "plumbline: interrupted: "

@@ -59,7 +59,7 @@ void check_files(const RenderCommand& options)
 
 void add_render_options(CLI::App& command, RenderCommand& options)
 {
-    command.add_option("scene", options.scene, "COLLADA file")->required();
+    command.add_option("scene", options.scene, "COLLADA file; -: standard input")->required();
     command.add_option("-o,--output", options.outputs, "Picture: .exr, .pfm or .png; may be repeated")
         ->required();
     command.add_option("--size", options.size, "Width x height in pixels")->capture_default_str();

@@ -2,8 +2,10 @@
 
 #include "golden/file_ending.h"
 #include "scenes/contacts.h"
+#include "scenes/file_bytes.h"
 #include "scenes/frame.h"
 #include "scenes/placed.h"
+#include "scenes/read_mesh.h"
 #include "scenes/read_scene.h"
 
 #include <charconv>
@@ -37,16 +39,78 @@ void expect_ending(const std::string& path, const std::string& option, const std
         throw std::invalid_argument(option + " " + path + ": its name must end in " + ending);
 }
 
+namespace {
+
+/// What stands for a file and means standard input.
+constexpr const char* standard_input = "-";
+
+/// The COLLADA file, or what standard input holds. Throws scenes::SceneError.
+scenes::Scene read_collada(const std::string& file, scenes::Parts parts)
+{
+    if (file != standard_input) return scenes::read_scene(file, parts);
+    const std::string name = shown_name(file);
+    scenes::Scene scene = scenes::parse_scene(scenes::stream_bytes(std::cin, name), name, parts);
+    scene.name = "stdin";
+    return scene;
+}
+
+/// Moves the camera if `frame`, and gives the scene one if it has none.
+void place_camera(scenes::Scene& scene, const std::string& file, bool frame)
+{
+    if (scene.camera && frame) scenes::frame_camera(scene);
+    if (scene.camera) return;
+    if (scenes::primitive_count(scene) == 0)
+        throw std::invalid_argument(shown_name(file) +
+                                    ": the scene has no camera, and no geometry to place one before");
+    scenes::add_camera(scene);
+}
+
+void print_notices(const scenes::Scene& scene, const std::string& file)
+{
+    for (const std::string& notice : scene.notices)
+        std::cerr << shown_name(file) << ": " << notice << '\n';
+}
+
+/// Throws std::invalid_argument for a file name whose ending promises a format that is not read.
+void expect_triangles(const std::string& file)
+{
+    const std::string ending = std::filesystem::path(file).extension().string();
+    const bool collada = ending.empty() || golden::has_ending(file, ".dae") ||
+                         golden::has_ending(file, ".xml") || file == standard_input;
+    if (!collada && !scenes::is_mesh_file(file))
+        throw std::invalid_argument(file + ": its name ends in " + ending +
+                                    ", not in .dae, .obj, .ply, .stl, .gltf or .glb");
+}
+
+} // namespace
+
+std::string shown_name(const std::string& file)
+{
+    return file == standard_input ? "<stdin>" : file;
+}
+
 scenes::Scene load_scene(const std::string& file, bool frame, bool quiet)
 {
-    scenes::Scene scene = scenes::read_scene(file);
-    if (frame) scenes::frame_camera(scene);
-    if (!scene.camera) throw std::invalid_argument(file + ": <COLLADA>: the scene has no camera");
+    if (scenes::is_mesh_file(file))
+        throw std::invalid_argument(
+            file + ": a mesh without lights, which cannot be rendered: plumbline bvh reads such files");
+    scenes::Scene scene = read_collada(file, scenes::Parts::all);
+    place_camera(scene, file, frame);
     scene = scenes::placed(std::move(scene));
     for (std::string& notice : scenes::contact_notices(scene))
         scene.notices.push_back(std::move(notice));
-    if (!quiet)
-        for (const std::string& notice : scene.notices) std::cerr << file << ": " << notice << '\n';
+    if (!quiet) print_notices(scene, file);
+    return scene;
+}
+
+scenes::Scene load_triangles(const std::string& file, bool frame, bool quiet)
+{
+    expect_triangles(file);
+    scenes::Scene scene = scenes::is_mesh_file(file) ? scenes::read_mesh(file)
+                                                     : read_collada(file, scenes::Parts::geometry);
+    place_camera(scene, file, frame);
+    scene = scenes::placed(std::move(scene));
+    if (!quiet) print_notices(scene, file);
     return scene;
 }
 

@@ -20,9 +20,17 @@ Size parse_size(const std::string& text);
 /// `ending` (lower case), in any case.
 void expect_ending(const std::string& path, const std::string& option, const std::string& ending);
 
-/// The scene in `file`, with a camera for certain, moved back to see the whole scene if `frame`. Tells
-/// what a person should know about it on stderr, unless `quiet`. Throws scenes::SceneError or
-/// std::invalid_argument.
+/// `file` as messages name it: "-", which is standard input, is "<stdin>".
+std::string shown_name(const std::string& file);
+
+/// The scene in the COLLADA file `file`, or in standard input for "-" (its name is then "stdin"). It has
+/// a camera for certain: its own, moved back to see the whole scene if `frame`, or without one that of
+/// scenes::add_camera. Tells what a person should know about it on stderr, unless `quiet`. Throws
+/// scenes::SceneError or std::invalid_argument.
 scenes::Scene load_scene(const std::string& file, bool frame, bool quiet);
+
+/// The same for a tree, which needs triangles and spheres and nothing else: no lights and no materials
+/// are read (scenes::Parts::geometry), and the file may also be one that scenes::read_mesh reads.
+scenes::Scene load_triangles(const std::string& file, bool frame, bool quiet);
 
 } // namespace cli

@@ -16,29 +16,12 @@
 #include "scenes/collada/document.h"
 #include "scenes/collada/instances.h"
 #include "scenes/collada/nodes.h"
-
-#include <xxhash.h>
-
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
-#include <system_error>
+#include "scenes/file_bytes.h"
 
 namespace scenes {
 namespace {
 
 using namespace collada;
-
-constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30U;
-
-std::string hash_of(std::string_view bytes)
-{
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx",
-                  static_cast<unsigned long long>(XXH3_64bits(bytes.data(), bytes.size())));
-    return text;
-}
 
 void check_root(const Element& root)
 {
@@ -52,7 +35,7 @@ void check_root(const Element& root)
 
 } // namespace
 
-Scene parse_scene(std::string_view xml, const std::string& file_name)
+Scene parse_scene(std::string_view xml, const std::string& file_name, Parts parts)
 {
     const std::filesystem::path path(file_name);
     const Document document(xml, path.filename().string());
@@ -65,31 +48,16 @@ Scene parse_scene(std::string_view xml, const std::string& file_name)
     Scene scene;
     scene.name = path.stem().string();
     scene.hash = hash_of(xml);
-    Instances instances(document, scene);
+    Instances instances(document, scene, parts);
     NodeWalk(document, instances).visit_scene(document.target(instance, "url", "visual_scene"));
     instances.finish();
     notice_animations(document, scene.notices); // now it is known what is in use
     return scene;
 }
 
-Scene read_scene(const std::filesystem::path& path)
+Scene read_scene(const std::filesystem::path& path, Parts parts)
 {
-    const std::string name = path.filename().string();
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw SceneError(name + ": no such file");
-    if (!std::filesystem::is_regular_file(status)) throw SceneError(name + ": not a regular file");
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error) throw SceneError(name + ": " + error.message());
-    if (size > largest_file)
-        throw SceneError(name + ": larger than " + std::to_string(largest_file) + " bytes");
-
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw SceneError(name + ": " + std::strerror(errno));
-    std::string xml(size, '\0');
-    if (!file.read(xml.data(), static_cast<std::streamsize>(size)))
-        throw SceneError(name + ": cannot be read");
-    return parse_scene(xml, name);
+    return parse_scene(file_bytes(path), path.filename().string(), parts);
 }
 
 } // namespace scenes

@@ -20,12 +20,21 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// How much of a file is read.
+enum class Parts {
+    all,
+    /// What a tree is built over: triangles and spheres, all of one grey material, and the camera.
+    /// Lights (area lights too) and materials are not read, so nothing in them is an error, and a camera
+    /// that cannot be read is a notice.
+    geometry
+};
+
 /// Reads the scene in the COLLADA file at `path`. Throws SceneError if the file cannot be opened or
 /// read, or whenever parse_scene does.
-Scene read_scene(const std::filesystem::path& path);
+Scene read_scene(const std::filesystem::path& path, Parts parts = Parts::all);
 
 /// Reads the scene in `xml`, the bytes of a COLLADA file. `file_name` (a path is fine; the folder is
 /// dropped) begins every error message and, without its ending, becomes Scene::name. Throws SceneError.
-Scene parse_scene(std::string_view xml, const std::string& file_name);
+Scene parse_scene(std::string_view xml, const std::string& file_name, Parts parts = Parts::all);
 
 } // namespace scenes

@@ -70,6 +70,11 @@ void Instances::add_geometry(const Element& instance, const Matrix& to_world)
 
 void Instances::add_mesh(const Mesh& mesh, const Element& instance, const Matrix& to_world)
 {
+    if (parts_ == Parts::geometry) {
+        for (const Part& part : mesh)
+            if (!part.triangles.empty()) add_triangles(part.triangles, 0, instance, to_world);
+        return;
+    }
     const MaterialBinding binding(*document_, instance);
     for (const Part& part : mesh) {
         if (part.triangles.empty()) continue;
@@ -117,14 +122,19 @@ void Instances::add_sphere(const LocalSphere& sphere, const Element& geometry, c
                            (linear.orthogonal ? "" : " and shears it"));
     check_room(1, instance);
     const double scale = (linear.lengths.x + linear.lengths.y + linear.lengths.z) / 3;
-    const Element* const bound = MaterialBinding(*document_, instance).only_material();
-    const std::uint32_t material =
-        bound ? materials_.index_of(*bound)
-              : default_material(geometry, instance_with_line(instance) + " binds none: ");
+    const std::uint32_t material = sphere_material(geometry, instance);
     const Sphere world{world_position(to_world, instance), scale * sphere.radius, material};
     if (!(world.radius > 0) || !is_finite(Vec3(world.radius)))
         fail(instance, "the transform of its node leaves the sphere no finite radius");
     scene_->spheres.push_back(world);
+}
+
+std::uint32_t Instances::sphere_material(const Element& geometry, const Element& instance)
+{
+    if (parts_ == Parts::geometry) return 0;
+    const Element* const bound = MaterialBinding(*document_, instance).only_material();
+    return bound ? materials_.index_of(*bound)
+                 : default_material(geometry, instance_with_line(instance) + " binds none: ");
 }
 
 void Instances::check_room(std::size_t more, const Element& instance) const
@@ -135,6 +145,7 @@ void Instances::check_room(std::size_t more, const Element& instance) const
 
 void Instances::add_light(const Element& instance, const Matrix& to_world)
 {
+    if (parts_ == Parts::geometry) return;
     check_children(instance, {});
     const Element& element = document_->target(instance, "url", "light");
     const Light light = read_light(element);
@@ -158,6 +169,19 @@ void Instances::add_light(const Element& instance, const Matrix& to_world)
 
 void Instances::add_camera(const Element& instance, const Matrix& to_world)
 {
+    if (parts_ == Parts::all) {
+        place_camera(instance, to_world);
+        return;
+    }
+    try {
+        place_camera(instance, to_world);
+    } catch (const SceneError& error) { // trees need no camera
+        scene_->notices.push_back(error.what() + std::string(": this camera is not used"));
+    }
+}
+
+void Instances::place_camera(const Element& instance, const Matrix& to_world)
+{
     if (!scene_->camera) {
         check_children(instance, {});
         const Element& camera = document_->target(instance, "url", "camera");
@@ -170,6 +194,7 @@ void Instances::add_camera(const Element& instance, const Matrix& to_world)
 
 void Instances::finish()
 {
+    if (parts_ == Parts::geometry) return;
     if (has_emissive_geometry(*scene_)) {
         if (!area_lights_.empty())
             scene_->notices.push_back(

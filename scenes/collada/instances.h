@@ -7,6 +7,8 @@
 #include "scenes/collada/geometries.h"
 #include "scenes/collada/materials.h"
 #include "scenes/collada/transform.h"
+#include "scenes/plain_material.h"
+#include "scenes/read_scene.h"
 #include "scenes/scene.h"
 
 #include <cstddef>
@@ -19,10 +21,13 @@ namespace scenes::collada {
 /// Adds instances to a scene, each as its instance element says and with the transform of its node.
 class Instances {
 public:
-    Instances(const Document& document, Scene& scene)
-        : document_(&document), scene_(&scene), materials_(document, scene),
+    /// With Parts::geometry the scene gets one grey material, which is that of every surface.
+    Instances(const Document& document, Scene& scene, Parts parts = Parts::all)
+        : document_(&document), scene_(&scene), parts_(parts), materials_(document, scene),
           geometries_(document, scene.notices)
-    {}
+    {
+        if (parts_ == Parts::geometry) add_plain_material(scene);
+    }
 
     /// <instance_geometry>. A mirroring transform turns the winding of triangles over as well, so that
     /// their normal stays on the side that it was on: the front of a mirrored lamp is the mirror image
@@ -47,11 +52,15 @@ private:
         Matrix to_world;
     };
 
+    /// add_camera, where the camera must be readable.
+    void place_camera(const Element& instance, const Matrix& to_world);
     void add_mesh(const Mesh& mesh, const Element& instance, const Matrix& to_world);
     void add_sphere(const LocalSphere& sphere, const Element& geometry, const Element& instance,
                     const Matrix& to_world);
     void add_triangles(const std::vector<Corners>& triangles, std::uint32_t material,
                        const Element& instance, const Matrix& to_world);
+    /// The index of the material that `instance` gives the sphere of `geometry`.
+    std::uint32_t sphere_material(const Element& geometry, const Element& instance);
     /// The index of the default material, with a notice that `surface` (an element of a geometry) gets
     /// it and `why`: once, however many instances it has.
     std::uint32_t default_material(const Element& surface, const std::string& why);
@@ -60,6 +69,7 @@ private:
 
     const Document* document_;
     Scene* scene_;
+    Parts parts_;
     Materials materials_;
     Geometries geometries_;
     std::vector<AreaLightInstance> area_lights_;

@@ -201,15 +201,6 @@ TEST_F(RenderFailures, AnErrorInTheSceneIsNamedWithItsLineAndElement)
     EXPECT_NE(outcome.err.find("<yfov>"), std::string::npos) << outcome.err;
 }
 
-TEST_F(RenderFailures, ASceneWithoutACameraIsRefused)
-{
-    std::string text = read_bytes(scene_file("point_over_plane"));
-    const std::size_t at = text.find("<instance_camera");
-    ASSERT_NE(at, std::string::npos);
-    text.erase(at, text.find("/>", at) + 2 - at);
-    expect_complaint(render_file(text), "camera");
-}
-
 TEST_F(RenderFailures, AFolderInThePlaceOfTheOutputStays)
 {
     std::filesystem::create_directory(out);

@@ -109,4 +109,32 @@ TEST(FrameCamera, WithoutACameraOrGeometryThereIsAnError)
     EXPECT_EQ(too_large.camera->eye, Vec3(0.0)); // untouched
 }
 
+// The numbers stand in scenes/frame.h: along (-1, 2, -1) with z up, at 45 degrees horizontally.
+RC_GTEST_PROP(AddCamera, SeesTheSceneFromTheFrontRightAndAbove, ())
+{
+    Scene scene = random_geometry();
+    scene.camera.reset();
+    scenes::add_camera(scene);
+    const scenes::Camera& camera = *scene.camera;
+    const double eps = 1e-15; // three operations on numbers up to 1
+    RC_ASSERT(glm::distance(camera.backward, Vec3(1, -2, 1) / std::sqrt(6.0)) < eps);
+    RC_ASSERT(std::abs(camera.right.z) < eps && camera.right.x > 0 && camera.up.z > 0);
+    RC_ASSERT(std::abs(glm::length(camera.right) - 1) < eps &&
+              std::abs(glm::length(camera.up) - 1) < eps);
+    RC_ASSERT(glm::distance(glm::cross(camera.right, camera.up), camera.backward) < eps);
+    RC_ASSERT(camera.fov_axis == scenes::FovAxis::horizontal);
+    RC_ASSERT(std::abs(camera.fov - std::acos(-1.0) / 4) < eps);
+
+    const Vec3 eye = camera.eye;
+    scenes::frame_camera(scene);
+    RC_ASSERT(scene.camera->eye == eye);
+    RC_ASSERT(scene.notices.size() == 1u);
+}
+
+TEST(AddCamera, WithoutGeometryThereIsAnError)
+{
+    Scene nothing;
+    EXPECT_THROW(scenes::add_camera(nothing), scenes::SceneError);
+}
+
 } // namespace

@@ -1,0 +1,23 @@
+#pragma once
+
+// The bytes of a file, whole.
+
+#include <filesystem>
+#include <istream>
+#include <string>
+#include <string_view>
+
+namespace scenes {
+
+/// The bytes of the regular file at `path`, at most 2^30. Throws SceneError, with the file's name, for a
+/// file that is missing, of another kind, larger, or not readable.
+std::string file_bytes(const std::filesystem::path& path);
+
+/// What is left in `stream`, at most 2^30 bytes. Throws SceneError, with `name`, for a stream that holds
+/// more or cannot be read.
+std::string stream_bytes(std::istream& stream, const std::string& name);
+
+/// A hash of `bytes` in 16 hexadecimal digits: Scene::hash.
+std::string hash_of(std::string_view bytes);
+
+} // namespace scenes

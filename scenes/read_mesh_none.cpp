@@ -1,0 +1,15 @@
+// What stands in for read_mesh.cpp where Assimp was not found.
+
+#include "scenes/read_mesh.h"
+
+#include "scenes/read_scene.h"
+
+namespace scenes {
+
+Scene read_mesh(const std::filesystem::path& path)
+{
+    throw SceneError(path.filename().string() + ": " + path.extension().string() +
+                     " files are read by the library Assimp, and this build is without it");
+}
+
+} // namespace scenes
