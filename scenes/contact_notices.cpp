@@ -75,8 +75,9 @@ std::vector<std::string> contact_notices(const Scene& scene)
             ": a ray sees an emitter from its shining side before an opaque surface, and this before "
             "glass; of two of one kind the one that comes first in the file");
     if (!complete)
-        notices.push_back("more than 4096 surfaces overlap in one place: which of those that coincide a "
-                          "ray sees depends on rounding there");
+        notices.emplace_back(
+            "more than 4096 surfaces overlap in one place: which of those that coincide a "
+            "ray sees depends on rounding there");
     return notices;
 }
 

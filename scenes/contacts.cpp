@@ -1,5 +1,6 @@
 #include "scenes/contacts.h"
 
+#include "scenes/largest_component.h"
 #include "scenes/overlapping_boxes.h"
 
 #include <glm/common.hpp>
@@ -14,11 +15,6 @@
 
 namespace scenes {
 namespace {
-
-double largest_component(const Vec3& v)
-{
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 /// The unit normal; none where there is no area. Edges are brought to about 1 first: no square under- or
 /// overflows.

@@ -1,6 +1,7 @@
 #include "scenes/placed.h"
 
 #include "scenes/bounds.h"
+#include "scenes/largest_component.h"
 #include "scenes/read_scene.h"
 
 #include <glm/common.hpp>
@@ -19,11 +20,6 @@ constexpr double step_in_diagonals = 1024;
 constexpr double coarsest_noticed = 1e-6; // spacing of doubles in diagonals
 constexpr double coarsest_held = 1e-3;
 constexpr double brightest = 1e30; // leaves 8 decades of a float for what sampling multiplies it with
-
-double largest_component(const Vec3& v)
-{
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 bool is_finite(const Vec3& v)
 {
