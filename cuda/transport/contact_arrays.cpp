@@ -75,23 +75,27 @@ struct Plane {
     double clearance;
 };
 
+/// What is left of `v` without its part in the span of the normals of `planes`, which are independent.
+scenes::Vec3 orthogonal_part(scenes::Vec3 v, const std::vector<Plane>& planes)
+{
+    std::vector<scenes::Vec3> basis; // orthonormal, of that span [Gram-Schmidt]
+    for (const Plane& plane : planes) {
+        scenes::Vec3 axis = plane.normal;
+        for (const scenes::Vec3& b : basis) axis -= glm::dot(axis, b) * b;
+        basis.push_back(glm::normalize(axis));
+    }
+    for (const scenes::Vec3& b : basis) v -= glm::dot(v, b) * b;
+    return v;
+}
+
 /// Up to three planes whose normals are independent: those that the end is on first. A plane that is
 /// nearly parallel to one of them is the same plane; a fourth is left out.
 std::vector<Plane> independent(std::vector<Plane> planes)
 {
     std::ranges::stable_sort(planes, {}, [](const Plane& plane) { return plane.side != 0; });
     std::vector<Plane> result;
-    for (const Plane& plane : planes) {
-        scenes::Vec3 rest = plane.normal;
-        std::vector<scenes::Vec3> basis; // orthonormal, of those that are in
-        for (const Plane& known : result) {
-            scenes::Vec3 axis = known.normal;
-            for (const scenes::Vec3& b : basis) axis -= glm::dot(axis, b) * b;
-            basis.push_back(glm::normalize(axis));
-        }
-        for (const scenes::Vec3& b : basis) rest -= glm::dot(rest, b) * b;
-        if (glm::length(rest) > 1e-3) result.push_back(plane);
-    }
+    for (const Plane& plane : planes)
+        if (glm::length(orthogonal_part(plane.normal, result)) > 1e-3) result.push_back(plane);
     return result;
 }
 
@@ -101,15 +105,9 @@ std::vector<scenes::Vec3> dual_basis(const std::vector<Plane>& planes)
 {
     std::vector<scenes::Vec3> dual;
     for (std::size_t i = 0; i < planes.size(); ++i) {
-        scenes::Vec3 m = planes[i].normal;
-        std::vector<scenes::Vec3> basis; // orthonormal, of the other normals
-        for (std::size_t j = 0; j < planes.size(); ++j) {
-            if (j == i) continue;
-            scenes::Vec3 axis = planes[j].normal;
-            for (const scenes::Vec3& b : basis) axis -= glm::dot(axis, b) * b;
-            basis.push_back(glm::normalize(axis));
-        }
-        for (const scenes::Vec3& b : basis) m -= glm::dot(m, b) * b;
+        std::vector<Plane> others = planes;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+        const scenes::Vec3 m = orthogonal_part(planes[i].normal, others);
         dual.push_back(m / glm::dot(m, planes[i].normal));
     }
     return dual;

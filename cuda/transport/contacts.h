@@ -30,7 +30,8 @@ HD bool lies_on(const SceneView<needs>& scene, const EndContacts& contacts, std:
     return false;
 }
 
-/// How a ray along `direction` ranks a surface with that normal, see scenes::meeting_rank.
+/// The rank of a surface of that material, see scenes::meeting_rank. `from_front`: the ray comes from
+/// the side of the surface's normal.
 HD inline std::uint32_t meeting_rank(const Material& material, bool from_front)
 {
     if (material.kind == MaterialKind::emission) return from_front ? 0 : 3;

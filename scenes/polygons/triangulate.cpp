@@ -1,5 +1,6 @@
 #include "scenes/polygons/triangulate.h"
 
+#include "scenes/largest_component.h"
 #include "scenes/polygons/cut.h"
 
 #include <glm/common.hpp>
@@ -21,17 +22,12 @@ Vec3 area_vector(const Corners& c)
     return glm::cross(c[1] - c[0], c[2] - c[0]);
 }
 
-double largest_coordinate(const Vec3& v)
-{
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 /// The corners of all rings, those of the outline first, scaled by a power of two so that all
 /// coordinates are below 1. That changes no digit, and no product of a few of them overflows.
 std::vector<Vec3> scaled(std::span<const Vec3> corners)
 {
     double largest = 0;
-    for (const Vec3& corner : corners) largest = std::max(largest, largest_coordinate(corner));
+    for (const Vec3& corner : corners) largest = std::max(largest, largest_component(corner));
     int exponent = 0;
     std::frexp(largest, &exponent);
     std::vector<Vec3> result;
@@ -57,8 +53,8 @@ bool is_planar(std::span<const Vec3> corners, const Vec3& normal)
     double height = 0;    // above or below the plane
     for (const Vec3& corner : corners) {
         const Vec3 from_center = corner - center;
-        size = std::max(size, largest_coordinate(from_center));
-        magnitude = std::max(magnitude, largest_coordinate(corner));
+        size = std::max(size, largest_component(from_center));
+        magnitude = std::max(magnitude, largest_component(corner));
         height = std::max(height, std::abs(glm::dot(normal, from_center)));
     }
     return height <= 1e-5 * size + 1e-6 * magnitude;
@@ -70,7 +66,7 @@ Pose pose_of(std::span<const Vec3> corners, std::size_t outline_size)
     double total = 0;
     double size = 0;
     for (std::size_t i = 1; i < outline_size; ++i)
-        size = std::max(size, largest_coordinate(corners[i] - corners[0]));
+        size = std::max(size, largest_component(corners[i] - corners[0]));
     for (std::size_t i = 1; i + 1 < outline_size; ++i) {
         const Vec3 area = area_vector({corners[0], corners[i], corners[i + 1]});
         sum += area;
