@@ -96,8 +96,22 @@ double perimeter_of(const Polygon& polygon)
     return sum;
 }
 
-bool coincide(const Triangle& a, const Triangle& b, double on)
+/// The triangle in units of 2^exponent: no bit changes.
+Triangle in_units_of(int exponent, Triangle triangle)
 {
+    for (Vec3& v : triangle.vertices)
+        for (int axis = 0; axis < 3; ++axis) v[axis] = std::ldexp(v[axis], -exponent);
+    return triangle;
+}
+
+/// `a_in_file` and `b_in_file` are brought to about 1 first: an area is a product of two lengths, and its
+/// square, of four.
+bool coincide(const Triangle& a_in_file, const Triangle& b_in_file, double on)
+{
+    int exponent = 0;
+    std::frexp(std::max(largest_coordinate(a_in_file), largest_coordinate(b_in_file)), &exponent);
+    const Triangle a = in_units_of(exponent, a_in_file);
+    const Triangle b = in_units_of(exponent, b_in_file);
     const auto normal = normal_of(a);
     const auto other = normal_of(b);
     // Planes at an angle cross in a band that is too narrow to matter.

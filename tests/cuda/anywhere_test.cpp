@@ -45,13 +45,23 @@ double share_of_different_pixels(const golden::Image& a, const golden::Image& b)
     return different / static_cast<double>(a.pixels.size());
 }
 
+/// Lights of no extent are measured by the square of a length: as far as that is a number.
+constexpr int largest_exponent = 300;
+
 RC_GTEST_PROP(Anywhere, ScalingByAPowerOfTwoChangesNoBit, ())
 {
     static const std::vector<scenes::Scene> scenes = all_scenes();
     const auto& scene = *rc::gen::elementOf(scenes);
-    const double factor = std::ldexp(1.0, *rc::gen::inRange(-300, 300));
-    // Lights of no extent are measured by the square of a length: as far as that is a number.
+    const double factor = std::ldexp(1.0, *rc::gen::inRange(-largest_exponent, largest_exponent));
     RC_ASSERT(picture_of(tests::scaled(scene, factor)) == picture_of(scene));
+}
+
+TEST(Anywhere, TheSmallestAndTheLargestSizeOfEverySceneChangeNoBit)
+{
+    for (const auto& scene : all_scenes())
+        for (const int exponent : {-largest_exponent, largest_exponent})
+            EXPECT_TRUE(picture_of(tests::scaled(scene, std::ldexp(1.0, exponent))) == picture_of(scene))
+                << scene.name << " by 2^" << exponent;
 }
 
 RC_GTEST_PROP(Anywhere, ThePictureIsTheSameAtAnySizeAndPlace, ())

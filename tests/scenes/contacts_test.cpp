@@ -72,6 +72,9 @@ RC_GTEST_PROP(Coincidences, ALampInItsWallCoincidesWithWhatItOverlapsAndNeighbou
     add_rectangle(scene, place, 2, -2, 3, 2, 0);             // 2, 3: goes on beside it
     add_rectangle(scene, place, 0.5, -0.9, 1.5, -0.2, 0);    // 4, 5: a lamp on the right of the diagonal
     add_rectangle(scene, place, 0.5, -0.9, 1.5, -0.2, 1e-9); // 6, 7: clearly in front of it
+    const double size = std::ldexp(1.0, *rc::gen::inRange(-500, 500)); // 1e-150 to 1e150
+    for (auto& triangle : scene.triangles)
+        for (Vec3& v : triangle.vertices) v *= size;
     const auto pairs = pairs_of(scenes::coincidences(scene), 8);
     const std::set<std::pair<std::uint32_t, std::uint32_t>> expected = {{0, 4}, {0, 5}, {4, 0}, {5, 0}};
     RC_ASSERT(pairs == expected);
