@@ -104,8 +104,8 @@ Triangle in_units_of(int exponent, Triangle triangle)
     return triangle;
 }
 
-/// `a_in_file` and `b_in_file` are brought to about 1 first: an area is a product of two lengths, and its
-/// square, of four.
+/// `a_in_file` and `b_in_file` are brought to about 1 first: an area is a product of two lengths, and
+/// its square, of four.
 bool coincide(const Triangle& a_in_file, const Triangle& b_in_file, double on)
 {
     int exponent = 0;

@@ -15,12 +15,11 @@ namespace gpu {
 template <Needs needs>
 HD std::uint32_t choose_emitter(const SceneView<needs>& scene, float u)
 {
-    const float target = u * scene.cumulative.back();
     std::uint32_t first = 0;
     auto last = static_cast<std::uint32_t>(scene.cumulative.size()) - 1;
     while (first < last) {
         const std::uint32_t middle = (first + last) / 2;
-        if (scene.cumulative[middle] > target)
+        if (scene.cumulative[middle] > u)
             last = middle;
         else
             first = middle + 1;

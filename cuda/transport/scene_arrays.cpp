@@ -1,6 +1,7 @@
 #include "cuda/transport/scene_arrays.h"
 
 #include "cuda/transport/contact_arrays.h"
+#include "cuda/transport/emitter_choice.h"
 #include "scenes/bounds.h"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ double spot_solid_angle(const scenes::SpotLight& spot)
     return 2.0 * std::numbers::pi * (1.0 - std::pow(c, spot.exponent + 1.0)) / (spot.exponent + 1.0);
 }
 
-/// Collects emitters with their power, and shares 1 among them in the end.
+/// Collects emitters with their power, and gives them their probabilities in the end.
 class EmitterList {
 public:
     explicit EmitterList(SceneArrays& arrays) : arrays_(arrays) {}
@@ -68,19 +69,15 @@ public:
     [[nodiscard]] std::uint32_t next() const { return static_cast<std::uint32_t>(powers_.size()); }
     void finish()
     {
-        double total = 0;
-        for (const double power : powers_) total += power;
-        if (!(total > 0)) {
+        arrays_.cumulative = summed_probabilities(powers_);
+        if (arrays_.cumulative.empty()) {
             // Nothing can be chosen; but a sky over no surfaces, on which nothing of it falls, is seen.
             for (Surface& surface : arrays_.surfaces) surface.emitter = no_emitter;
             return;
         }
-        double sum = 0;
-        for (std::size_t i = 0; i < powers_.size(); ++i) {
-            sum += powers_[i] / total;
-            arrays_.emitters[i].probability = static_cast<float>(powers_[i] / total);
-            arrays_.cumulative.push_back(static_cast<float>(sum));
-        }
+        for (std::size_t i = 0; i < powers_.size(); ++i)
+            arrays_.emitters[i].probability =
+                arrays_.cumulative[i] - (i > 0 ? arrays_.cumulative[i - 1] : 0.0f);
     }
 
 private:

@@ -20,7 +20,7 @@ struct SceneArrays {
     std::vector<Surface> surfaces; // by primitive, numbered as by scenes::primitive_count
     std::vector<Material> materials;
     std::vector<Emitter> emitters;
-    std::vector<float> cumulative; // none if no emitter has power
+    std::vector<float> cumulative; // none if no emitter has power (emitter_choice.h)
     std::vector<Light> lights;     // by emitter
     std::vector<Coincident> coincident;
     std::vector<ContactPlane> contact_planes;

@@ -20,7 +20,7 @@ struct Emitter {
     EmitterKind kind;
     std::uint32_t index;
     float area;        // m^2; 0 where there is no surface
-    float probability; // of being chosen: its share of the power of all emitters
+    float probability; // of being chosen (emitter_choice.h)
     Rgb emitted;       // radiance; intensity of point and spot; irradiance of a directional light
 };
 
@@ -67,7 +67,7 @@ struct SceneView {
     std::span<const Surface> surfaces;   // by primitive
     std::span<const Material> materials;
     std::span<const Emitter> emitters; // the environment is the last
-    std::span<const float> cumulative; // of their probabilities; none if all are 0
+    std::span<const float> cumulative; // sums of their probabilities, up to 1; none if all are 0
     std::span<const Light> lights;     // by emitter: its light, if it is one
     std::span<const Coincident> coincident;
     std::span<const ContactPlane> contact_planes;

@@ -1,5 +1,6 @@
 #include "ref/transport/emitter.h"
 
+#include "ref/transport/emitter_choice.h"
 #include "scenes/bounds.h"
 #include "scenes/contacts.h"
 
@@ -36,8 +37,10 @@ double spot_solid_angle(const scenes::SpotLight& light)
 Emitters::Emitters(const Geometry& geometry) : geometry_(&geometry)
 {
     const scenes::Scene& scene = geometry.scene();
-    const auto add = [this](EmitterKind kind, std::size_t index, double area, double power) {
-        all_.push_back({kind, static_cast<std::uint32_t>(index), area, power, {}});
+    std::vector<double> powers; // W
+    const auto add = [&](EmitterKind kind, std::size_t index, double area, double power) {
+        all_.push_back({kind, static_cast<std::uint32_t>(index), area, 0.0, {}});
+        powers.push_back(power);
     };
 
     if (const auto box = scenes::bounds(scene)) {
@@ -76,14 +79,11 @@ Emitters::Emitters(const Geometry& geometry) : geometry_(&geometry)
             emitter.on = scenes::surfaces_at(scene, scene.spot_lights[emitter.index].position);
     }
 
-    double total = 0.0;
-    for (const Emitter& emitter : all_) total += emitter.probability;
-    double sum = 0.0;
+    borders_ = choice_borders(powers);
     by_primitive_.assign(scenes::primitive_count(scene), not_an_emitter);
     for (std::size_t i = 0; i < all_.size(); ++i) {
         Emitter& emitter = all_[i];
-        if (total > 0.0) emitter.probability /= total;
-        cumulative_.push_back(sum += emitter.probability);
+        emitter.probability = borders_[i] - (i > 0 ? borders_[i - 1] : 0.0);
         if (emitter.kind == EmitterKind::triangle)
             by_primitive_[emitter.index] = static_cast<std::uint32_t>(i);
         if (emitter.kind == EmitterKind::sphere)
@@ -93,11 +93,10 @@ Emitters::Emitters(const Geometry& geometry) : geometry_(&geometry)
 
 const Emitter* Emitters::choose(double u) const
 {
-    if (cumulative_.empty() || cumulative_.back() <= 0.0) return nullptr;
-    // Scaling by the last sum keeps rounding from choosing beyond the end; upper_bound never chooses an
-    // emitter of no power.
-    const auto chosen = std::upper_bound(cumulative_.begin(), cumulative_.end(), u * cumulative_.back());
-    return &all_[static_cast<std::size_t>(chosen - cumulative_.begin())];
+    // The first border beyond u: never that of an emitter of no power, which is the one before it.
+    const auto chosen = std::upper_bound(borders_.begin(), borders_.end(), u);
+    return chosen != borders_.end() ? &all_[static_cast<std::size_t>(chosen - borders_.begin())]
+                                    : nullptr;
 }
 
 const Emitter* Emitters::of_primitive(std::uint32_t primitive) const

@@ -1,7 +1,7 @@
 #pragma once
 
 // Where light comes from. Every emissive triangle, every emissive sphere, every point, directional and
-// spot light, and the environment is one emitter; a sample chooses among them in proportion to power.
+// spot light, and the environment is one emitter; a sample chooses one of them (emitter_choice.h).
 
 #include "ref/transport/random.h"
 #include "ref/transport/sampling.h"
@@ -20,7 +20,7 @@ struct Emitter {
     EmitterKind kind;
     std::uint32_t index;
     double area;                        // m^2; 0 where there is no surface
-    double probability;                 // of being chosen: its share of the power of all emitters
+    double probability;                 // of being chosen (emitter_choice.h); 0 if it has no power
     std::vector<std::uint32_t> on = {}; // of a point or spot light: surfaces that it lies on
 };
 
@@ -38,6 +38,7 @@ struct IncidentLight {
 /// The emitters of a scene. Keeps a reference to its geometry, which must outlive it.
 class Emitters {
 public:
+    /// Throws std::invalid_argument as choice_borders does.
     explicit Emitters(const Geometry& geometry);
 
     [[nodiscard]] const std::vector<Emitter>& all() const { return all_; }
@@ -47,7 +48,7 @@ public:
     [[nodiscard]] const Vec3& center() const { return center_; }
     [[nodiscard]] double radius() const { return radius_; }
 
-    /// The emitter that `u` in (0, 1) falls on, or none if no emitter has any power.
+    /// The emitter in whose part of (0, 1) `u` falls, or none if no emitter has any power.
     [[nodiscard]] const Emitter* choose(double u) const;
     /// The emitter that is primitive `primitive`, or none if it does not emit.
     [[nodiscard]] const Emitter* of_primitive(std::uint32_t primitive) const;
@@ -59,7 +60,7 @@ private:
     Vec3 center_{0.0};
     double radius_ = 0.0;
     std::vector<Emitter> all_;
-    std::vector<double> cumulative_; // of the probabilities
+    std::vector<double> borders_; // of the parts of (0, 1) that choose them
     std::vector<std::uint32_t> by_primitive_;
 };
 

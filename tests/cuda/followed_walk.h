@@ -49,10 +49,6 @@ struct Setting {
 /// The reference's numbers with the bits that floats have (uniforms_test.cpp).
 ref::Uniforms float_uniforms(const ref::SampleId& id, ref::Event event, std::uint32_t j = 0);
 
-/// The reference's number for the choice of an emitter. Throws Undecided near the border of two, where
-/// sums of probabilities in float and in double may differ.
-const ref::Emitter& chosen_emitter(const ref::World& world, double u);
-
 /// The surface at `position`, with the normal and the clearance that the floats have there.
 ref::SurfacePoint surface_of(const ref::World& world, const gpu::SurfacePoint& point);
 

@@ -36,7 +36,7 @@ std::optional<Judged> PathJudge::next_event(std::size_t t, bool found) const
     const ref::Uniforms u =
         float_uniforms(setting_.id, ref::Event::next_event, static_cast<std::uint32_t>(t - 1));
     if (world.emitters.choose(u[0]) == nullptr) return std::nullopt;
-    const ref::Emitter& emitter = chosen_emitter(world, u[0]);
+    const ref::Emitter& emitter = *world.emitters.choose(u[0]);
     const Vec3& p = last.point.position;
     // How far the light's end is off, and the angle by which that turns the connection.
     double turned = 0;

@@ -22,18 +22,6 @@ ref::Uniforms float_uniforms(const ref::SampleId& id, ref::Event event, std::uin
     return u;
 }
 
-const ref::Emitter& chosen_emitter(const ref::World& world, double u)
-{
-    double sum = 0;
-    for (const ref::Emitter& emitter : world.emitters.all()) {
-        sum += emitter.probability;
-        // The sum as a float and its product with u: two roundings.
-        if (&emitter != &world.emitters.all().back() && std::abs(sum - u) <= 4 * roundoff)
-            throw Undecided("the choice of an emitter");
-    }
-    return *world.emitters.choose(u);
-}
-
 ref::SurfacePoint surface_of(const ref::World& world, const gpu::SurfacePoint& point)
 {
     ref::SurfacePoint result{};
@@ -162,7 +150,7 @@ FollowedWalk followed_light_walk(const Setting& setting, const WatchedSample& sa
     const auto drawn = sample_emission(setting.world, position, direction);
     require(drawn.has_value() == sample.emission.has_value(), "whether there is light");
     if (!drawn) return {};
-    const ref::Emitter& chosen = chosen_emitter(setting.world, position[0]);
+    const ref::Emitter& chosen = *setting.world.emitters.choose(position[0]);
     require(&setting.world.emitters.all()[sample.emission->emitter] == &chosen, "the chosen emitter");
 
     const NextStep step = first_of_light(setting, *sample.emission, *drawn, direction);

@@ -265,7 +265,7 @@ RC_GTEST_PROP(MisWeight, EveryContributionIsThroughputOverDensityTimesItsShare, 
 TEST(MisWeight, TheOracleMeetsEveryFamilyWithEveryEmitterAndGlass)
 {
     Tally tally;
-    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 450; ++seed) {
         const auto scene = rc::gen::exec(tests::any_scene)(rc::Random(seed), rc::kNominalSize).value();
         check_scene(scene, {.seed = seed, .max_edges = 7}, 160, tally);
     }

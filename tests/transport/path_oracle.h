@@ -52,7 +52,7 @@ struct Judgement {
     double condition;
 };
 
-/// Six kinds of emitters, their shares of the power.
+/// Six kinds of emitters, and how often each is chosen.
 struct Share {
     Place::Kind kind;
     std::uint32_t index;

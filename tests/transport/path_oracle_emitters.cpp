@@ -21,6 +21,31 @@ double mean(const Rgb& v)
     return (v.x + v.y + v.z) / 3.0;
 }
 
+/// Turns powers into probabilities: the unit interval has 2^24 cells. Each emitter with power takes one
+/// first; half of the others go by power, half equally, rounded where each emitter's part ends.
+void share_out(std::vector<Share>& shares)
+{
+    long double total = 0;
+    long double n = 0;
+    for (const Share& share : shares) {
+        total += share.probability;
+        n += share.probability > 0 ? 1 : 0;
+    }
+    const long double cells = 16'777'216 - n;
+    long double power_before = 0;
+    long double number_before = 0;
+    const auto taken = [&] {
+        const long double share = total > 0 ? (power_before / total + number_before / n) / 2 : 0;
+        return number_before + std::round(cells * share);
+    };
+    for (Share& share : shares) {
+        const long double begin = taken();
+        power_before += share.probability;
+        number_before += share.probability > 0 ? 1 : 0;
+        share.probability = static_cast<double>((taken() - begin) / 16'777'216);
+    }
+}
+
 } // namespace
 
 PathOracle::PathOracle(const scenes::Scene& scene, int width, int height, bool roulette)
@@ -78,9 +103,7 @@ PathOracle::PathOracle(const scenes::Scene& scene, int width, int height, bool r
         shares_.push_back(
             {Kind::environment, 0, 0.0, 4.0 * std::pow(pi * radius_, 2) * mean(*scene.environment)});
 
-    double total = 0.0;
-    for (const Share& share : shares_) total += share.probability;
-    for (Share& share : shares_) share.probability = total > 0.0 ? share.probability / total : 0.0;
+    share_out(shares_);
 }
 
 Share PathOracle::share_of(const Place& place) const
