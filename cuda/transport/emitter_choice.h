@@ -1,7 +1,7 @@
 #pragma once
 
-// With which probability each emitter is chosen: half in proportion to power, half alike for all, so that
-// a small lamp under a wide sky is not starved [Hesterberg 1995].
+// With which probability each emitter is chosen: half in proportion to power, half alike for all, so
+// that a small lamp under a wide sky is not starved [Hesterberg 1995].
 
 #include <vector>
 

@@ -1,6 +1,7 @@
 #include "ref/transport/emitter.h"
 
 #include "ref/transport/emitter_choice.h"
+#include "ref/trees/scaled_length.h"
 #include "scenes/bounds.h"
 #include "scenes/contacts.h"
 
@@ -52,7 +53,7 @@ Emitters::Emitters(const Geometry& geometry) : geometry_(&geometry)
     for (std::size_t i = 0; i < scene.triangles.size(); ++i)
         if (const Rgb* radiance = emission_of(scene, scene.triangles[i].material)) {
             const auto& v = scene.triangles[i].vertices;
-            const double area = glm::length(glm::cross(v[1] - v[0], v[2] - v[0])) / 2.0;
+            const double area = scaled_length(glm::cross(v[1] - v[0], v[2] - v[0])) / 2.0;
             add(EmitterKind::triangle, i, area, pi * area * average(*radiance));
         }
     for (std::size_t i = 0; i < scene.spheres.size(); ++i)

@@ -13,9 +13,9 @@
 
 namespace ref {
 
-/// Cuts the unit interval among emitters of these powers (>= 0, of any unit): number i gets the part from
-/// element i - 1 of the result (0 for the first) to element i. All emitters that have power get one, no
-/// other does, and the last ends at 1; or all are empty if no emitter has power.
+/// Cuts the unit interval among emitters of these powers (>= 0, of any unit): number i gets the part
+/// from element i - 1 of the result (0 for the first) to element i. All emitters that have power get
+/// one, no other does, and the last ends at 1; or all are empty if no emitter has power.
 ///
 /// Every border is a multiple of 2^-24. So an emitter is chosen exactly as often as its part is long,
 /// by the uniform numbers of 32 bits here and by those of 24 bits that floats hold, and by both it is

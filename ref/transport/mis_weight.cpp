@@ -68,30 +68,29 @@ bool is_possible(const World& world, const Path& x, std::size_t s)
     return light_end && eye_end && seen;
 }
 
-std::vector<long double> strategy_densities(const World& world, const PathOptions& options,
-                                            const Path& x)
+std::vector<double> density_quotients(const World& world, const Path& x, const VertexDensities& p,
+                                      std::size_t s)
 {
     const std::size_t k = x.size() - 1;
-    const VertexDensities p = vertex_densities(world, options, x);
-    std::vector<long double> densities;
-    for (std::size_t s = 0; s <= k; ++s) {
-        long double density = is_possible(world, x, s) ? 1.0L : 0.0L;
-        for (std::size_t i = 0; i <= k; ++i) density *= i < s ? p.light[i] : p.eye[i];
-        densities.push_back(density);
-    }
-    return densities;
+    std::vector<double> quotients(k + 1, 1.0);
+    for (std::size_t i = s; i > 0; --i)
+        quotients[i - 1] = quotients[i] * (p.eye[i - 1] / p.light[i - 1]);
+    for (std::size_t i = s; i < k; ++i) quotients[i + 1] = quotients[i] * (p.light[i] / p.eye[i]);
+    for (std::size_t i = 0; i <= k; ++i)
+        if (!is_possible(world, x, i)) quotients[i] = 0.0;
+    return quotients;
 }
 
 double mis_weight(const World& world, const PathOptions& options, const Path& x, std::size_t s)
 {
-    const std::vector<long double> p = strategy_densities(world, options, x);
-    if (p[s] == 0.0L) return 0.0;
-    long double sum = 0.0L;
-    for (const long double p_i : p) {
-        const long double ratio = p_i / p[s];
-        sum += options.heuristic == Heuristic::balance ? ratio : ratio * ratio; // [Veach 1997, sec. 9.2]
-    }
-    return static_cast<double>(1.0L / sum);
+    if (!is_possible(world, x, s)) return 0.0;
+    const VertexDensities p = vertex_densities(world, options, x);
+    for (std::size_t i = 0; i < x.size(); ++i) // along a surface, to within rounding, no walk goes
+        if ((i < s ? p.light[i] : p.eye[i]) == 0.0) return 0.0;
+    double sum = 0.0;
+    for (const double quotient : density_quotients(world, x, p, s)) // [Veach 1997, sec. 9.2]
+        sum += options.heuristic == Heuristic::balance ? quotient : quotient * quotient;
+    return 1.0 / sum;
 }
 
 } // namespace ref

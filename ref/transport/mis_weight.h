@@ -29,10 +29,14 @@ VertexDensities vertex_densities(const World& world, const PathOptions& options,
 /// s = 0, x_0 can be run into.
 bool is_possible(const World& world, const Path& x, std::size_t s);
 
-/// The densities p_s of the path under the strategies s = 0 ... k with t = k + 1 - s >= 1: 0 where the
-/// strategy is not possible. In long double for its range alone: a path has many factors.
-std::vector<long double> strategy_densities(const World& world, const PathOptions& options,
-                                            const Path& x);
+/// p_i / p_s for i = 0 ... k: how much denser than strategy s every strategy i makes the path; 0 where i
+/// cannot. `p` are the path's densities; none of those that make up p_s may be 0. p_i is the product of
+/// p.light over x_0 ... x_{i-1} and of p.eye over x_i ... x_k; the quotient of two neighbours has two
+/// factors that differ, p_{i+1} / p_i = p.light[i] / p.eye[i] [Veach 1997, eq. 10.9]. So no product has
+/// more factors than the strategies lie apart: those of a long path, in the unit of length of any scene,
+/// would leave the range of doubles.
+std::vector<double> density_quotients(const World& world, const Path& x, const VertexDensities& p,
+                                      std::size_t s);
 
 /// The share of strategy s in the path, 0 ... 1: exactly 0 where it is not possible. Over all strategies
 /// they add up to 1.

@@ -17,7 +17,7 @@ inline bool visible(const Geometry& geometry, const SurfacePoint& a, const Surfa
 {
     const Vec3 d = b.position - a.position;
     const Vec3 from = leave_surface(a, d);
-    return !occluded(geometry, {from, leave_surface(b, -d) - from, 1.0});
+    return !occluded(geometry, {from, end_at_surface(b, -d) - from, 1.0});
 }
 
 /// Whether nothing stands between a point on a surface and one in free space, which lies on the surfaces
@@ -25,11 +25,12 @@ inline bool visible(const Geometry& geometry, const SurfacePoint& a, const Surfa
 inline bool visible(const Geometry& geometry, const SurfacePoint& a, const Vec3& b,
                     std::span<const std::uint32_t> b_on = {})
 {
-    const Vec3 from = leave_surface(a, b - a.position);
+    const Vec3 d = b - a.position;
+    const Vec3 from = leave_surface(a, d);
     if (b_on.empty()) return !occluded(geometry, {from, b - from, 1.0});
     const bool in_plane = a.primitive < geometry.scene().triangles.size() &&
                           std::ranges::find(b_on, a.primitive) != b_on.end();
-    return !in_plane && !occluded(geometry, {b, from - b, 1.0, b_on});
+    return !in_plane && !occluded(geometry, {b, end_at_surface(a, d) - b, 1.0, b_on});
 }
 
 /// Whether `light`, drawn for the surface at `point`, reaches it.

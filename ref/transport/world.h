@@ -17,7 +17,7 @@ namespace ref {
 
 /// A scene made ready for rendering. Keeps a reference to the scene, which must outlive it and must
 /// have a camera. Throws std::invalid_argument where the scene is so large or small that products of
-/// four lengths would leave the range of doubles: scenes::placed brings it there.
+/// three lengths would leave the range of doubles: scenes::placed brings it there.
 struct World {
     const scenes::Scene& scene;
     Geometry geometry;
@@ -31,9 +31,9 @@ struct World {
           eye_on(scenes::surfaces_at(source, source.camera->eye))
     {
         const double size = geometry.diagonal();
-        if (size != 0.0 && !(size > 1e-70 && size < 1e70))
+        if (size != 0.0 && !(size > 1e-100 && size < 1e100))
             throw std::invalid_argument(source.name + ": a scene of this size is out of range: its "
-                                                      "diagonal is not between 1e-70 and 1e70");
+                                                      "diagonal is not between 1e-100 and 1e100");
     }
     World(const World&) = delete; // its parts refer to each other
     World& operator=(const World&) = delete;

@@ -2,6 +2,7 @@
 
 #include "ref/trees/intersect_primitive.h"
 #include "ref/trees/rounding.h"
+#include "ref/trees/scaled_length.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -92,9 +93,8 @@ bool occluded(const Geometry& geometry, const Ray& ray, Work* work)
 
 // How far must a point be from a surface so that rays may start and segments end there?
 //
-// Let u be the unit roundoff and D the diagonal of the scene: two points of surfaces differ by at most
-// D in every coordinate. Distances below count along the normal n; a bound e_i per coordinate makes
-// sum |n_i| e_i.
+// Let u be the unit roundoff. Distances count along the normal n; a bound e_i per coordinate makes
+// sum |n_i| e_i. Of a triangle let a_i be the extent of its box along axis i, and a the largest of them.
 //
 // 1. The computed position. On a triangle, the weights U/det, V/det, W/det of the doubles U, V, W are
 //    those of a point inside the triangle, wherever the ray really met it. It is computed as v0 + (b1
@@ -107,32 +107,27 @@ bool occluded(const Geometry& geometry, const Ray& ray, Work* work)
 //    the ray passes inside the sheared vertices, and reports no t that rounding could have carried
 //    across 0 or t_max. So a ray cannot hit if the perturbed vertices all lie strictly below a plane
 //    parallel to the triangle, below which the ray does not go; and likewise a segment that has both
-//    ends above it. The shear perturbs z by 3 u D (difference, 1/dz, product), and x and y by 7 u D
-//    each (the difference 1; S and the product 2; the last difference 2; and 2 for z's own
-//    perturbation): sqrt(7^2 + 7^2 + 3^2) u D, less than 10.4 u D along n. That holds where a ray
-//    starts and where a segment ends, since |v - o| <= D in both cases; at the end t - t_max adds u D,
-//    and the rounded direction q' - p' another: 12.4 u D. The sphere test errs less: f = o - c by u D,
-//    (b/a) d and l by u D each, |l|^2 and r^2 like 3 u r, and 2 r <= D: 5 u D; the sign of |f|^2 - r^2
-//    is certain from 4 u r on.
-// 4. Rounding in s n, and the error of n, are of second order: counting 16 u D for step 3 covers them.
+//    ends above it. A vertex at m = v - o is perturbed along an axis i across the ray by u |m_i| (the
+//    difference), 3 u |m| (S, the product, and of the last difference the part of m_z) and u |m_i| (the
+//    other part), and with t, which carries 2 roundings, by 2 u |m|: 2 u |m_i| + 5 u |m|, where |m| is
+//    the largest component. Along the longest axis it is 3 u |m|.
+//    Where a ray starts, on the triangle, |m_i| <= a_i: 2 u a_i + 5 u a. The size of the scene does not
+//    count. Where a segment d ends on it, |m_i| <= |d_i| + a_i, t - t_max adds u |d_i|, and the rounded
+//    direction another: 4 u |d_i| + 5 u |d| more, which along n is less than 12.7 u |d| (now the
+//    Euclidean length): the end is 16 u |d| further off than a start.
+//    The sphere test errs less. Where a ray starts, f = o - c errs by u r, (b/a) d and l by u r each,
+//    |l|^2 and r^2 like 3 u r: 6 u r; the sign of |f|^2 - r^2 is certain from 4 u r on. Where a segment
+//    ends, |f| <= |d| + r: 3 u |d| more, and 3 u |d| for t_max and direction.
+// 4. Rounding in s n, and the error of n, are of second order: counting 6 u a for 5 u a and 8 u r for
+//    6 u r covers them.
+// 5. A surface that coincides with this one may be larger: then a and r are the diagonal of the scene.
+//    A neighbour in the same plane needs no more than this triangle does, where they share an edge: next
+//    to it the plane of the neighbour as perturbed is that of the edge's ends.
 //
 // What no offset can promise: n itself is wrong by an angle of about 4 u times the triangle's aspect
 // ratio (longest edge over smallest height). To which side a direction closer to the surface points is
 // not known. An end that is no surface (a camera, a point light) needs no offset: the surfaces that it
 // lies on are known by name (Ray::on).
-
-namespace {
-
-/// Steps 1 to 4, given the part of step 1 that depends on the shape; and beyond the surfaces that
-/// coincide with this one.
-Vec3 clearance(const Geometry& geometry, std::uint32_t primitive, const Vec3& position,
-               const Vec3& shape_error)
-{
-    return shape_error + 2 * unit_roundoff * glm::abs(position) +
-           16 * unit_roundoff * geometry.diagonal() + geometry.coincidence_slack(primitive);
-}
-
-} // namespace
 
 SurfacePoint triangle_point(const Geometry& geometry, std::uint32_t triangle, const Vec3& barycentric)
 {
@@ -141,13 +136,17 @@ SurfacePoint triangle_point(const Geometry& geometry, std::uint32_t triangle, co
     const Vec3 e2 = v[2] - v[0];
     const double b1 = barycentric[1];
     const double b2 = barycentric[2];
+    const Vec3 box = glm::max(glm::max(v[0], v[1]), v[2]) - glm::min(glm::min(v[0], v[1]), v[2]);
+    const Vec3 a = geometry.extent(triangle, box);
     SurfacePoint point{};
     point.primitive = triangle;
     point.material = geometry.scene().triangles[triangle].material;
     point.position = v[0] + (b1 * e1 + b2 * e2);
-    point.normal = glm::normalize(glm::cross(e1, e2));
-    point.error = clearance(geometry, triangle, point.position,
-                            gamma_bound(7) * (b1 * glm::abs(e1) + b2 * glm::abs(e2)));
+    point.normal = scaled_normalize(glm::cross(e1, e2));
+    point.error =
+        gamma_bound(7) * (b1 * glm::abs(e1) + b2 * glm::abs(e2)) +
+        unit_roundoff * (2.0 * glm::abs(point.position) + 2.0 * a + 6 * scenes::largest_component(a)) +
+        geometry.coincidence_slack(triangle);
     return point;
 }
 
@@ -159,8 +158,10 @@ SurfacePoint sphere_point(const Geometry& geometry, std::uint32_t sphere, const 
     point.material = s.material;
     point.normal = glm::normalize(direction);
     point.position = s.center + s.radius * point.normal;
-    point.error = clearance(geometry, point.primitive, point.position,
-                            gamma_bound(5) * s.radius * glm::abs(point.normal));
+    point.error = gamma_bound(5) * s.radius * glm::abs(point.normal) +
+                  unit_roundoff * (2.0 * glm::abs(point.position) +
+                                   8.0 * geometry.extent(point.primitive, Vec3(s.radius))) +
+                  geometry.coincidence_slack(point.primitive);
     return point;
 }
 
@@ -173,11 +174,27 @@ SurfacePoint surface_point(const Geometry& geometry, const Ray& ray, const Hit& 
     return sphere_point(geometry, sphere, ray.origin + hit.t * ray.direction - center);
 }
 
-Vec3 leave_surface(const SurfacePoint& point, const Vec3& direction)
+namespace {
+
+/// `point.position` moved off the surface by `distance`, to the side that `direction` points to.
+Vec3 moved_off(const SurfacePoint& point, const Vec3& direction, double distance)
 {
-    const double distance = glm::dot(glm::abs(point.normal), point.error);
     const double side = glm::dot(direction, point.normal) < 0 ? -1 : 1;
     return point.position + side * distance * point.normal;
+}
+
+} // namespace
+
+Vec3 leave_surface(const SurfacePoint& point, const Vec3& direction)
+{
+    return moved_off(point, direction, glm::dot(glm::abs(point.normal), point.error));
+}
+
+Vec3 end_at_surface(const SurfacePoint& point, const Vec3& back)
+{
+    return moved_off(point, back,
+                     glm::dot(glm::abs(point.normal), point.error) +
+                         16 * unit_roundoff * glm::length(back));
 }
 
 } // namespace ref

@@ -25,6 +25,12 @@ public:
     /// Of the box around all primitives: an upper bound on the distance between two points of surfaces.
     [[nodiscard]] double diagonal() const { return diagonal_; }
     [[nodiscard]] const scenes::Coincidences& coincident() const { return coincident_; }
+    /// Of the surfaces that a point of `primitive` may lie on, the largest extent along each axis:
+    /// `own`, its own one, unless others coincide with it.
+    [[nodiscard]] Vec3 extent(std::uint32_t primitive, const Vec3& own) const
+    {
+        return coincident_.of(primitive).empty() ? own : Vec3(diagonal_);
+    }
     /// How far from `primitive` the surfaces may lie that coincide with it; 0 if there are none.
     [[nodiscard]] double coincidence_slack(std::uint32_t primitive) const
     {
@@ -64,5 +70,9 @@ SurfacePoint sphere_point(const Geometry& geometry, std::uint32_t sphere, const 
 /// length) points to: a ray from there cannot meet the surface that it leaves, nor one that coincides
 /// with it. No constant is involved, so scenes of any scale behave alike.
 Vec3 leave_surface(const SurfacePoint& point, const Vec3& direction);
+
+/// The same for the end of a segment that comes from elsewhere: rounding on the way counts, too. `back`:
+/// the vector from `point` to the other end.
+Vec3 end_at_surface(const SurfacePoint& point, const Vec3& back);
 
 } // namespace ref

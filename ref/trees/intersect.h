@@ -130,7 +130,8 @@ inline std::optional<double> intersect_sphere(const Ray& ray, const Vec3& center
     const double discriminant = radius * radius - glm::dot(l, l);
     if (!(discriminant >= 0)) return std::nullopt;
     const double c = glm::dot(f, f) - radius * radius;
-    const double q = b + std::copysign(std::sqrt(a * discriminant), b);
+    // Two roots: the product of their arguments has four lengths.
+    const double q = b + std::copysign(std::sqrt(a) * std::sqrt(discriminant), b);
     const double t0 = c / q;
     const double t1 = q / a;
     const auto valid = [&](double t) { return t > 0 && t < ray.t_max; };

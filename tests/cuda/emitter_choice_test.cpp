@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, StarvedLampInFloat,
                          [](const testing::TestParamInfo<gpu::Integrator>& of) {
                              return std::string(of.param == gpu::Integrator::path   ? "path"
                                                 : of.param == gpu::Integrator::bdpt ? "bdpt"
-                                                                                      : "light");
+                                                                                    : "light");
                          });
 
 } // namespace

@@ -5,11 +5,13 @@
 #include "tests/transport/contributions.h"
 #include "tests/transport/estimate.h"
 #include "tests/transport/integrators.h"
+#include "tests/transport/rounded_room.h"
 #include "tests/transport/scene_files.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace {
@@ -117,14 +119,36 @@ INSTANTIATE_TEST_SUITE_P(LightTracer, Metamorphic,
                                           tests::light_tracer()),
                          scene_and_integrator);
 
-// By a power of two nothing is rounded differently, the densities of paths included, whose product of
-// many factors stays within range: not a bit may change. Any absolute constant, be it 1e-12, would show.
+// By a power of two nothing is rounded differently: not a bit may change. Any absolute constant, be it
+// 1e-12, would show; and so would a product of four lengths, beyond 2^256, or of the densities of many
+// vertices.
 TEST_P(Metamorphic, ScalingByAPowerOfTwoChangesNoBit)
 {
     const auto original = samples(scene);
     ASSERT_FALSE(original.empty());
-    EXPECT_EQ(different(original, samples(scaled(scene, 1024.0)), 0.0), 0U);
-    EXPECT_EQ(different(original, samples(scaled(scene, 1.0 / 1024.0)), 0.0), 0U);
+    for (const int exponent : {-320, -10, 10, 320})
+        EXPECT_EQ(different(original, samples(scaled(scene, std::ldexp(1.0, exponent))), 0.0), 0U)
+            << "2^" << exponent;
+}
+
+// A path of 50 edges has 51 densities, each per area: their product would be 2^51200 at this scale.
+TEST(Metamorphic, LongPathsWeighTheSameAtAnyScale)
+{
+    for (const bool lamp : {false, true}) {
+        scenes::Scene room = tests::rounded_room(lamp);
+        for (scenes::Material& material : room.materials)
+            if (auto* matte = std::get_if<scenes::Lambertian>(&material)) matte->albedo = Rgb(0.98);
+        const auto long_paths = [](const scenes::Scene& of) {
+            return tests::contributions(of, ref::trace_bidirectionally, 50, 30);
+        };
+        const auto original = long_paths(room);
+        EXPECT_GT(std::ranges::count_if(
+                      original, [](const Contribution& c) { return edges(c) > 30 && c.weight > 0.0; }),
+                  100);
+        for (const int exponent : {-320, 320})
+            EXPECT_EQ(different(original, long_paths(scaled(room, std::ldexp(1.0, exponent))), 0.0), 0U)
+                << "2^" << exponent;
+    }
 }
 
 // By other factors every coordinate is rounded anew, by one part in 1e16; a curved surface magnifies the

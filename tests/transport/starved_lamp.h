@@ -30,8 +30,11 @@ inline scenes::Scene lamp_over_plane(double half_width)
     scene.triangles = {{{Vec3(-w, -w, 0), Vec3(w, -w, 0), Vec3(w, w, 0)}, starved::plane},
                        {{Vec3(-w, -w, 0), Vec3(w, w, 0), Vec3(-w, w, 0)}, starved::plane}};
     scene.point_lights = {{Vec3(0, 0, 1), Rgb(1.0)}};
-    scene.camera = scenes::Camera{Vec3(0.3, 0.2, 1.5),           Vec3(1, 0, 0), Vec3(0, 1, 0),
-                                  Vec3(0, 0, 1),                 scenes::FovAxis::horizontal,
+    scene.camera = scenes::Camera{Vec3(0.3, 0.2, 1.5),
+                                  Vec3(1, 0, 0),
+                                  Vec3(0, 1, 0),
+                                  Vec3(0, 0, 1),
+                                  scenes::FovAxis::horizontal,
                                   0.5};
     return scene;
 }
@@ -58,7 +61,8 @@ inline scenes::Scene lamp_under_sky(double half_width)
 }
 
 /// The mean over the picture of the radiance of the plane (directly lit, W m^-2 sr^-1): albedo (L + I
-/// cos / (pi r^2)), by the midpoint rule over 64 points of each pixel. What it leaves is below 1e-4 of it.
+/// cos / (pi r^2)), by the midpoint rule over 64 points of each pixel. What it leaves is below 1e-4 of
+/// it.
 inline double radiance_of_lit_plane(const scenes::Scene& scene, int width, int height)
 {
     const scenes::Camera& camera = *scene.camera;

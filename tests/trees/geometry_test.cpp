@@ -194,12 +194,60 @@ TEST(LeaveSurface, MovesAPointByNoMoreThanItsErrorBound)
         scene.triangles = {{v, 0}};
         const Geometry geometry(scene);
         const SurfacePoint point = triangle_point(geometry, 0, random.barycentric());
-        // |n|_1 <= sqrt(3) times the largest of 7 u b e + 2 u |p| + 16 u D, b e <= 2 D; and its
+        // |n|_1 <= sqrt(3) times the largest of 7 u b e + 2 u |p| + 8 u a, b e and a <= D; and its
         // rounding.
-        const double largest = u * (30 * geometry.diagonal() + 2 * (c.offset + 3 * c.size));
+        const double largest = u * (15 * geometry.diagonal() + 2 * (c.offset + 3 * c.size));
         const double moved = glm::length(leave_surface(point, point.normal) - point.position);
         EXPECT_LE(moved, std::sqrt(3.0) * largest + 2 * u * (c.offset + 3 * c.size));
         EXPECT_GT(moved, 0);
+    }
+}
+
+// A neighbour in the same plane, up to 1e6 times larger, beyond an edge close to which the ray starts.
+TEST(LeaveSurface, ARayMeetsNoLargerNeighbourInThePlane)
+{
+    Random random(8);
+    for (const double larger : {1.0, 1e3, 1e6})
+        for (const double offset : {0.0, 1.0, 1e4}) {
+            int met = 0;
+            for (int i = 0; i < 20000; ++i) {
+                const Vec3 x = random.direction();
+                const Vec3 y = tangent(x, random);
+                const Vec3 a = offset * random.direction();
+                const Vec3 b = a + x;
+                const Vec3 inside = a + random.uniform(0.2, 0.8) * x + random.uniform(0.5, 2) * y;
+                const Vec3 outside = a + larger * (random.uniform(-1, 1) * x - y);
+                scenes::Scene scene = empty_scene();
+                scene.triangles = {{{a, b, inside}, 0}, {{b, a, outside}, 0}};
+                const Geometry geometry(scene);
+                const double near = random.magnitude(-17, -1);
+                const double along = random.uniform(0, 1 - near);
+                const auto point = triangle_point(geometry, 0, {1 - near - along, along, near});
+                // The far corner is rounded, and the position: the planes differ by that angle.
+                const double least = std::max(1e-12, 64 * u * (1 + offset));
+                const Vec3 d = leaving_direction(point.normal, least, random);
+                met += intersect(geometry, {leave_surface(point, d), d}) ? 1 : 0;
+            }
+            EXPECT_EQ(met, 0) << "larger by " << larger << " offset " << offset;
+        }
+}
+
+TEST(LeaveSurface, DoesNotDependOnHowLargeTheRestOfTheSceneIs)
+{
+    Random random(9);
+    for (const double size : {1.0, 1e3, 1e6}) {
+        scenes::Scene scene = empty_scene();
+        scene.triangles = {{sliver(1, 3, random), 0}};
+        scene.spheres = {{random.in_cube(), 0.3, 0}};
+        const Vec3 b = random.barycentric();
+        const Vec3 w = random.direction();
+        const auto errors = [&] {
+            const Geometry geometry(scene);
+            return std::pair(triangle_point(geometry, 0, b).error, sphere_point(geometry, 0, w).error);
+        };
+        const auto alone = errors();
+        scene.triangles.push_back({{size * random.in_cube(), size * random.in_cube(), Vec3(0.0)}, 0});
+        EXPECT_EQ(errors(), alone);
     }
 }
 
@@ -207,7 +255,7 @@ bool sees(const Geometry& geometry, const SurfacePoint& p, const SurfacePoint& q
 {
     const Vec3 d = q.position - p.position;
     const Vec3 from = leave_surface(p, d);
-    return !occluded(geometry, {from, leave_surface(q, -d) - from, 1.0});
+    return !occluded(geometry, {from, end_at_surface(q, -d) - from, 1.0});
 }
 
 double cosine(const SurfacePoint& p, const Vec3& to)

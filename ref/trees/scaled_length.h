@@ -1,0 +1,24 @@
+#pragma once
+
+#include "scenes/largest_component.h"
+#include "scenes/scene.h"
+
+#include <glm/geometric.hpp>
+
+namespace ref {
+
+/// The length of `v`, also where the squares of its components would leave the range of doubles: as those
+/// of areas do, which are products of four lengths.
+inline double scaled_length(const scenes::Vec3& v)
+{
+    const double largest = scenes::largest_component(v);
+    return largest > 0.0 ? largest * glm::length(v / largest) : 0.0;
+}
+
+/// `v`, which is not 0, to unit length.
+inline scenes::Vec3 scaled_normalize(const scenes::Vec3& v)
+{
+    return glm::normalize(v / scenes::largest_component(v));
+}
+
+} // namespace ref
