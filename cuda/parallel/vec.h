@@ -19,4 +19,9 @@ namespace gpu {
 
 using Vec3 = glm::vec3;
 
+HD inline float max_component(const Vec3& v)
+{
+    return glm::max(glm::max(v.x, v.y), v.z);
+}
+
 } // namespace gpu

@@ -63,15 +63,17 @@ HD void light_image(const SceneView<needs>& scene, const PathOptions& options, i
                     const Rgb& alpha, Sink& sink)
 {
     const Vec3 d = scene.camera.eye - point.position;
-    const float spread = 1.0f / glm::dot(d, d);
+    const float distance2 = glm::dot(d, d);
+    const float spread = 1.0f / distance2;
     const Vec3 w = d * std::sqrt(spread); // from the surface to the eye
     const float cosine = glm::dot(facing, w);
     std::uint32_t pixel = 0;
     if (!(cosine > 0.0f) || is_black(alpha) || !scene.camera.project(-w, pixel)) return;
     if (lies_on(scene, scene.eye_contacts, point.primitive)) return;
     if (s == 1 && !sees_first(scene, point, w)) return;
-    if (!visible(scene, leave_surface(point, w),
-                 leave_end(scene, scene.camera.eye, scene.eye_contacts, -w)))
+    if (!visible(
+            scene, leave_surface(point, w),
+            leave_end(scene, scene.camera.eye, scene.eye_contacts, -w, distance2 * std::sqrt(spread))))
         return;
     // The density of y_{s-1} for the eye walk; and the measurement, since W_e cos is that density.
     const float E = scene.camera.pdf_solid_angle(scene.camera.cosine(-w)) * cosine * spread;
@@ -208,16 +210,17 @@ HD void inner_connection(const SceneView<needs>& scene, const PathOptions& optio
 {
     if (is_black(y.alpha)) return; // then nothing else of y was ever written
     const Vec3 d = y.position - z.point.position;
-    const float spread = 1.0f / glm::dot(d, d);
-    const float length = std::sqrt(spread);
-    const float cosine_z = glm::dot(z.facing, d) * length;
-    const float cosine_y = -glm::dot(y.facing, d) * length;
+    const float distance2 = glm::dot(d, d);
+    const float spread = 1.0f / distance2;
+    const float to_unit = std::sqrt(spread);
+    const float cosine_z = glm::dot(z.facing, d) * to_unit;
+    const float cosine_y = -glm::dot(y.facing, d) * to_unit;
     if (!(cosine_z > 0.0f && cosine_y > 0.0f)) return;
     const float G = cosine_z * cosine_y * spread;
     const Rgb value = z.alpha * G * y.alpha;
     if (is_black(value)) return;
     if (!visible(scene, z.point.position + z.point.clearance * z.facing,
-                 y.position + y.clearance * y.facing))
+                 y.position + (y.clearance + clearance_per_length * distance2 * to_unit) * y.facing))
         return;
     const int by_t = glm::min(z.t, 5) - 2;
     const int by_s = glm::min(s, 5) - 1;

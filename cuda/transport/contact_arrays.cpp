@@ -1,6 +1,6 @@
 #include "cuda/transport/contact_arrays.h"
 
-#include "cuda/trees/rounding.h"
+#include "cuda/trees/clearance.h"
 #include "scenes/contacts.h"
 
 #include <glm/geometric.hpp>
@@ -15,13 +15,6 @@ namespace {
 /// How far apart surfaces may be that coincide as floats, in units of a coordinate: each coordinate of
 /// each is rounded once, and the distance of their planes by sqrt(3) times that.
 constexpr double float_rounding = 4 * unit_roundoff;
-
-/// How far from a plane a ray must begin, in units of the scene's diagonal D <= 2: a segment may err by
-/// 12.4 u D (clearance.h, step 3), the plane and the end by sqrt(3) u D / 2 each, the sum that is the
-/// origin by u D / 2.
-constexpr double plane_clearance = 16 * unit_roundoff;
-/// The same for a sphere (step 4: 24 u D).
-constexpr double sphere_clearance = 32 * unit_roundoff;
 
 /// The scene where the arrays have it, in double precision. Its materials and names are left out.
 scenes::Scene moved(const scenes::Scene& scene, const Placement& place)
@@ -71,9 +64,41 @@ void add_coincident(SceneArrays& arrays, const scenes::Scene& scene, const scene
 /// A plane that an end lies on or near.
 struct Plane {
     scenes::Vec3 normal;
-    int side; // 0: on it
-    double clearance;
+    int side;         // 0: on it
+    double clearance; // how far a ray from the end must be moved; negative where it is clear already
 };
+
+/// How far from a primitive a ray must begin that leaves an end at `position` on it or near it, in the
+/// arrays' unit of length: that of clearance.h, and the floats' own errors of end and surface, which
+/// have been rounded since contacts were found. Each moves along every axis by u times its coordinate,
+/// and so does the sum that is the origin: sqrt(3) times that along the normal.
+double clearance_at(const SceneArrays& arrays, std::uint32_t primitive, const Vec3& position)
+{
+    const auto largest = [](const Vec3& v) { return static_cast<double>(max_component(glm::abs(v))); };
+    const double root_3 = std::sqrt(3.0);
+    const double rounded = 2 * root_3 * largest(position);
+    if (primitive >= arrays.triangles.size()) {
+        const Sphere& sphere = arrays.spheres[primitive - arrays.triangles.size()];
+        return unit_roundoff * (rounded + root_3 * largest(sphere.center) + 50.0 * sphere.radius);
+    }
+    const auto& v = arrays.triangles[primitive].vertices;
+    const double extent = arrays.surfaces[primitive].coincident_count > 0
+                              ? static_cast<double>(arrays.diagonal)
+                              : largest(triangle_extent(v[1] - v[0], v[2] - v[0]));
+    const double farthest = std::max({largest(v[0]), largest(v[1]), largest(v[2])});
+    return unit_roundoff * (rounded + root_3 * farthest + 8 * root_3 * extent);
+}
+
+/// How far `position` is from the surface of a primitive, or from the plane of a triangle.
+double distance_from(const scenes::Scene& scene, const scenes::NearSurface& surface,
+                     const scenes::Vec3& position)
+{
+    if (surface.primitive < scene.triangles.size())
+        return std::abs(
+            glm::dot(position - scene.triangles[surface.primitive].vertices[0], surface.normal));
+    const scenes::Sphere& sphere = scene.spheres[surface.primitive - scene.triangles.size()];
+    return std::abs(glm::length(position - sphere.center) - sphere.radius);
+}
 
 /// What is left of `v` without its part in the span of the normals of `planes`, which are independent.
 scenes::Vec3 orthogonal_part(scenes::Vec3 v, const std::vector<Plane>& planes)
@@ -117,26 +142,33 @@ std::vector<scenes::Vec3> dual_basis(const std::vector<Plane>& planes)
 /// were rounded.
 EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& scene, const scenes::Vec3& position)
 {
-    const double near = plane_clearance * arrays.diagonal / arrays.place.scale;
+    // The largest clearance of any triangle or sphere, at the end of the longest segment.
+    const double D = arrays.diagonal;
+    const double near = (40 * unit_roundoff + clearance_per_length) * D;
     EndContacts contacts{};
     contacts.first_plane = static_cast<std::uint32_t>(arrays.contact_planes.size());
     contacts.first_triangle = static_cast<std::uint32_t>(arrays.contact_triangles.size());
     std::vector<Plane> planes;
-    for (const scenes::NearSurface& surface : scenes::surfaces_near(scene, position, near)) {
-        const bool is_triangle = surface.primitive < scene.triangles.size();
-        planes.push_back({surface.normal, surface.side,
-                          (is_triangle ? plane_clearance : sphere_clearance) * arrays.diagonal});
-        if (is_triangle && surface.side == 0) arrays.contact_triangles.push_back(surface.primitive);
+    for (const scenes::NearSurface& surface :
+         scenes::surfaces_near(scene, position, near / arrays.place.scale)) {
+        const double distance =
+            surface.side == 0 ? 0 : distance_from(scene, surface, position) * arrays.place.scale;
+        const double clearance =
+            clearance_at(arrays, surface.primitive, arrays.place(position)) - distance;
+        if (!(clearance + clearance_per_length * D > 0)) continue;
+        planes.push_back({surface.normal, surface.side, clearance});
+        if (surface.primitive < scene.triangles.size() && surface.side == 0)
+            arrays.contact_triangles.push_back(surface.primitive);
     }
     planes = independent(std::move(planes));
     const std::vector<scenes::Vec3> dual = dual_basis(planes);
     for (std::size_t i = 0; i < planes.size(); ++i) {
-        const scenes::Vec3 push = planes[i].clearance * dual[i];
+        const auto clearance = static_cast<float>(planes[i].clearance);
         if (planes[i].side == 0)
-            arrays.contact_planes.push_back({Vec3(planes[i].normal), Vec3(push)});
+            arrays.contact_planes.push_back({Vec3(planes[i].normal), Vec3(dual[i]), clearance});
         else
             arrays.contact_planes.push_back(
-                {Vec3(0.0f), Vec3(static_cast<double>(planes[i].side) * push)});
+                {Vec3(0.0f), Vec3(static_cast<double>(planes[i].side) * dual[i]), clearance});
     }
     contacts.plane_count =
         static_cast<std::uint32_t>(arrays.contact_planes.size()) - contacts.first_plane;

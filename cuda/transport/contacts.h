@@ -8,15 +8,17 @@
 namespace gpu {
 
 /// Where a ray that leaves an end of a path in `direction` begins: beyond the surfaces that the end lies
-/// on, so that it does not meet them; and where a segment ends that comes to it from there.
+/// on, so that it does not meet them; and where a segment of that `length` ends that comes to it from
+/// there.
 template <Needs needs>
 HD Vec3 leave_end(const SceneView<needs>& scene, const Vec3& position, const EndContacts& contacts,
-                  const Vec3& direction)
+                  const Vec3& direction, float length = 0.0f)
 {
     Vec3 origin = position;
     for (std::uint32_t i = 0; i < contacts.plane_count; ++i) {
         const ContactPlane& plane = scene.contact_planes[contacts.first_plane + i];
-        origin += glm::dot(direction, plane.normal) < 0.0f ? -plane.push : plane.push;
+        const float clearance = glm::max(0.0f, plane.clearance + clearance_per_length * length);
+        origin += (glm::dot(direction, plane.normal) < 0.0f ? -clearance : clearance) * plane.push;
     }
     return origin;
 }

@@ -133,7 +133,7 @@ HD bool sample_incident(const SceneView<needs>& scene, const Vec3& from, const U
         light.geometry = cosine * light.spread;
         light.pdf_direction = cosine * inverse_pi;
         light.alpha = emitter.emitted * (light.geometry / light.pdf_position);
-        light.target = leave_surface(light.end, -light.wi);
+        light.target = end_at_surface(light.end, -d, distance2 * std::sqrt(light.spread));
         return true;
     }
     if constexpr (needs.other_lights) {
@@ -149,9 +149,11 @@ HD bool sample_incident(const SceneView<needs>& scene, const Vec3& from, const U
             light.pdf_direction = pdf_area_disc(scene);
         } else {
             const Vec3 d = source.position - from;
-            light.spread = 1.0f / glm::dot(d, d);
+            const float distance2 = glm::dot(d, d);
+            light.spread = 1.0f / distance2;
             light.wi = d * std::sqrt(light.spread);
-            light.target = leave_end(scene, source.position, source.contacts, -d);
+            light.target = leave_end(scene, source.position, source.contacts, -d,
+                                     distance2 * std::sqrt(light.spread));
             light.alpha *= light.spread;
             light.pdf_direction = pdf_solid_angle_sphere;
             if (emitter.kind == EmitterKind::spot) {

@@ -77,9 +77,4 @@ HD inline void sample_triangle(float u1, float u2, float& b1, float& b2)
     b2 = root * u2;
 }
 
-HD inline float max_component(const Rgb& c)
-{
-    return glm::max(glm::max(c.x, c.y), c.z);
-}
-
 } // namespace gpu

@@ -7,6 +7,7 @@
 #include "cuda/transport/camera.h"
 #include "cuda/transport/material.h"
 #include "cuda/transport/needs.h"
+#include "cuda/trees/clearance.h"
 #include "cuda/trees/surfaces.h"
 
 namespace gpu {
@@ -31,11 +32,12 @@ struct EndContacts {
     std::uint32_t first_triangle, triangle_count;
 };
 
-/// A plane through such an end, or so near it that floats cannot tell its side. Adding `push` moves a
-/// point far enough to the side of `normal`, and along the other planes of the end. Where the side is
-/// known `normal` is 0, and `push` goes to that side.
+/// A plane through such an end, or so near it that floats cannot tell its side. Adding `push` times a
+/// distance moves a point by that to the side of `normal`, and along the other planes of the end. Where
+/// the side is known `normal` is 0, and `push` goes to that side.
 struct ContactPlane {
     Vec3 normal, push;
+    float clearance; // by which rays must be moved (clearance.h), less the end's own distance; maybe < 0
 };
 
 /// A light of no extent, or at infinity.
@@ -87,12 +89,18 @@ struct SurfacePoint {
     std::uint32_t primitive;
 };
 
-/// `point.position` moved off the surface to the side that `direction` points to, just so far that a ray
-/// from there cannot meet the surface again.
+/// Where a ray that leaves `point` in `direction` (of any length) begins, so that it does not meet the
+/// surface again.
 HD inline Vec3 leave_surface(const SurfacePoint& point, const Vec3& direction)
 {
-    const bool behind = glm::dot(direction, point.normal) < 0.0f;
-    return point.position + (behind ? -point.clearance : point.clearance) * point.normal;
+    return leave_surface(point.position, point.normal, point.clearance, direction);
+}
+
+/// Where a segment of that `length` ends that comes to `point` from the side of `back`.
+HD inline Vec3 end_at_surface(const SurfacePoint& point, const Vec3& back, float length)
+{
+    return leave_surface(point.position, point.normal, point.clearance + clearance_per_length * length,
+                         back);
 }
 
 } // namespace gpu

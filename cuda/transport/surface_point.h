@@ -3,7 +3,6 @@
 // From what a ray hit, or a sample drew, to a point on a surface.
 
 #include "cuda/transport/scene_view.h"
-#include "cuda/trees/clearance.h"
 
 namespace gpu {
 
@@ -27,8 +26,9 @@ HD SurfacePoint triangle_point(const SceneView<needs>& scene, std::uint32_t tria
     point.primitive = triangle;
     point.position = v[0] + (b1 * e1 + b2 * e2);
     point.normal = unit_normal(e1, e2);
-    point.clearance = glm::dot(glm::abs(point.normal),
-                               triangle_point_error(point.position, b1, e1, b2, e2, scene.diagonal));
+    const bool coincides = scene.surfaces[triangle].coincident_count > 0;
+    point.clearance = triangle_clearance(point.position, point.normal, b1, e1, b2, e2,
+                                         coincides ? Vec3(scene.diagonal) : triangle_extent(e1, e2));
     return point;
 }
 
@@ -43,8 +43,7 @@ HD SurfacePoint sphere_point(const SceneView<needs>& scene, std::uint32_t primit
     point.primitive = primitive;
     point.normal = glm::normalize(direction);
     point.position = sphere.center + sphere.radius * point.normal;
-    point.clearance = glm::dot(glm::abs(point.normal), sphere_point_error(point.position, sphere.radius,
-                                                                          point.normal, scene.diagonal));
+    point.clearance = sphere_clearance(point.position, point.normal, sphere.radius);
     return point;
 }
 

@@ -2,30 +2,38 @@
 
 // How far must a point be from its surface so that rays may start and segments end there?
 //
-// Let u = 2^-24, and let D be the diagonal of the scene's box, so that two points of surfaces differ by
-// at most D in every coordinate. A bound e_i for every coordinate bounds the distance along a normal n
-// by sum |n_i| e_i. To first order in u:
+// Let u = 2^-24. A bound e_i for every coordinate bounds the distance along a normal n by sum |n_i| e_i.
+// Of a triangle let a_i be the extent of its box along axis i, and a the largest of them. The size of
+// the scene does not count: rounding acts on what lies between a ray's origin and the surface that it
+// has left, or comes to. To first order in u:
 //
 // 1. The point as computed. A triangle's is v0 + (b1 e1 + b2 e2): whatever b1 and b2 are, it is in the
 //    plane, but for one rounding of each edge, one of each product and one of the inner sum,
 //    3 u (b1 |e1| + b2 |e2|), and for that of the outer sum, u |p|. A sphere's is c + r n: the length of
-//    n may err by 5 u (three squares, their sum, a root, a quotient, a product), the product by u, 6 u r
-//    |n_i|, and the sum by u |p|.
+//    n may err by 5 u (three squares, their sum, a root, a quotient, a product), the product by u, 6 u
+//    r, and the sum by u |p|.
 // 2. The origin p + s n is rounded by u |p|.
-// 3. A ray against a triangle (intersect.h): with v - o rounded, which moves a vertex by u D along every
-//    axis, the shear moves it by another 6 u D across the ray (2 u D for S and its product, 2 u D for
-//    the difference, 2 u D as the shear follows z) and 2 u D along it: by sqrt(7^2 + 7^2 + 3^2) u D
-//    < 10.4 u D in all. For these vertices the signs of U, V and W are exact, and the t is a weighted
-//    mean of theirs. If they all lie below a plane parallel to the triangle that the ray stays above, no
-//    mean of them is at a t > 0; if a segment has both ends above it, none at a 0 < t < t_max. The mean
-//    is taken in double, which moves it by less than 2^-50 D; rounding t to a float keeps its order with
-//    0 and with t_max. The rounded direction of a segment moves its far end by u D along every axis, at
-//    most sqrt(3) u D along n. Together less than 12.4 u D.
-// 4. A ray against a sphere (sphere.h): what is reported as a hit is within 22 u M <= 22 u D of it; with
-// the
-//    rounded direction less than 24 u D.
-// 5. The rounding of s n itself and that of these bounds are of second order. Step 1 is given u more
-//    for them, steps 3 and 4 end in 16 u D and 32 u D.
+// 3. A ray that leaves a triangle, against that triangle (intersect.h). A vertex at m = v - o from the
+//    origin has |m_i| <= a_i, and is moved along an axis across the ray by u |m_i| (the difference),
+//    3 u |m| (S, its product, and of the last difference the part of m_z) and u |m_i| (the other part);
+//    and by the 2 roundings of its t along the ray, 2 u |m| on every axis, where |m| is the largest
+//    component: 2 u a_i + 5 u a. For the vertices so moved the signs of U, V and W are exact, and the t
+//    is a weighted mean of theirs, in double. If they all lie below a plane parallel to the triangle
+//    that the ray stays above, no mean of them is at a t > 0. Rounding t to a float keeps its order with
+//    0 and with t_max.
+// 4. A segment d that ends on a triangle: |m_i| <= |d_i| + a_i, and the rounded direction moves its end
+// by
+//    u |d_i|. Beyond step 3 that is 3 u |d_i| + 5 u |d|, along n less than 11.7 u times its length.
+// 5. A sphere (sphere.h): what is reported as a hit is within 22 u M of it, M the larger of 2 r and the
+//    distance of the origin from the centre. Where a ray leaves it, M = 2 r: 44 u r. Where a segment
+//    ends, M <= 2 r + |d|; with its rounded direction less than 24 u |d| more.
+// 6. The rounding of s n itself and that of these bounds are of second order: u more in step 1, u a more
+// in
+//    step 3 and 5 u r more in step 5 are room for it.
+// 7. Surfaces that coincide with a triangle may be larger than it is: then a is the diagonal of the
+// scene.
+//    A neighbour in the same plane needs no more than the triangle itself where they share an edge: near
+//    that edge the place of the neighbour's third vertex has no weight.
 //
 // What no distance can promise: to which side a direction points that is closer to the surface than n's
 // own error, which for a normal computed in single precision is an angle of some 4 u times the ratio of
@@ -36,31 +44,39 @@
 
 namespace gpu {
 
-/// For the point `position` = v0 + (b1 e1 + b2 e2) of a triangle: along every axis, how far the plane
-/// that rays meet may be from it. `diagonal`: of the box around all surfaces.
-HD inline Vec3 triangle_point_error(const Vec3& position, float b1, const Vec3& e1, float b2,
-                                    const Vec3& e2, float diagonal)
+/// Of a triangle with these edges from its first vertex: the extent of its box along every axis.
+HD inline Vec3 triangle_extent(const Vec3& e1, const Vec3& e2)
 {
-    return 4 * unit_roundoff * (b1 * glm::abs(e1) + b2 * glm::abs(e2)) +
-           2 * unit_roundoff * glm::abs(position) + 16 * unit_roundoff * diagonal;
+    return glm::max(glm::max(e1, e2), Vec3(0.0f)) - glm::min(glm::min(e1, e2), Vec3(0.0f));
+}
+
+/// For the point `position` = v0 + (b1 e1 + b2 e2) of a triangle with this normal (unit length): how far
+/// from its plane rays must begin. `extent`: of the triangle, or of what coincides with it.
+HD inline float triangle_clearance(const Vec3& position, const Vec3& normal, float b1, const Vec3& e1,
+                                   float b2, const Vec3& e2, const Vec3& extent)
+{
+    const Vec3 error = 4.0f * (b1 * glm::abs(e1) + b2 * glm::abs(e2)) + 2.0f * glm::abs(position) +
+                       2.0f * extent + 6.0f * max_component(extent);
+    return unit_roundoff * glm::dot(glm::abs(normal), error);
 }
 
 /// The same for the point `position` = c + radius * normal of a sphere.
-HD inline Vec3 sphere_point_error(const Vec3& position, float radius, const Vec3& normal, float diagonal)
+HD inline float sphere_clearance(const Vec3& position, const Vec3& normal, float radius)
 {
-    return 7 * unit_roundoff * radius * glm::abs(normal) + 2 * unit_roundoff * glm::abs(position) +
-           32 * unit_roundoff * diagonal;
+    return unit_roundoff * (2.0f * glm::dot(glm::abs(normal), glm::abs(position)) + 56.0f * radius);
 }
 
-/// `position` moved off its surface by just its error bound, to the side that `direction` (of any
-/// length) points to: a ray from there that goes on to that side cannot meet the surface that it leaves,
-/// nor one that coincides with it, and neither does a segment between two such points. `normal`: unit
-/// length, to either side.
-HD inline Vec3 leave_surface(const Vec3& position, const Vec3& normal, const Vec3& error,
+/// How much further from a surface, per unit of its length, a segment that comes to it must end.
+constexpr float clearance_per_length = 24 * unit_roundoff;
+
+/// `position` moved off its surface by `clearance`, to the side that `direction` (of any length) points
+/// to. `normal`: unit length, to either side. A ray from there that goes on to that side cannot meet the
+/// surface that it leaves, nor one that coincides with it; nor does a segment that ends there, moved off
+/// by clearance_per_length times its length more.
+HD inline Vec3 leave_surface(const Vec3& position, const Vec3& normal, float clearance,
                              const Vec3& direction)
 {
-    const float distance = glm::dot(glm::abs(normal), error);
-    return position + (glm::dot(direction, normal) < 0 ? -distance : distance) * normal;
+    return position + (glm::dot(direction, normal) < 0 ? -clearance : clearance) * normal;
 }
 
 } // namespace gpu

@@ -7,8 +7,8 @@
 
 namespace ref {
 
-/// The length of `v`, also where the squares of its components would leave the range of doubles: as those
-/// of areas do, which are products of four lengths.
+/// The length of `v`, also where the squares of its components would leave the range of doubles: as
+/// those of areas do, which are products of four lengths.
 inline double scaled_length(const scenes::Vec3& v)
 {
     const double largest = scenes::largest_component(v);

@@ -4,12 +4,14 @@
 // near it.
 
 #include "cuda/transport/scene_arrays.h"
+#include "cuda/trees/clearance.h"
 #include "scenes/contacts.h"
 #include "tests/cuda/touching_scenes.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -20,12 +22,13 @@ using scenes::Vec3;
 
 /// As kernels do it (leave_end).
 Vec3 origin_of(const gpu::SceneArrays& arrays, const gpu::Vec3& position,
-               const gpu::EndContacts& contacts, const gpu::Vec3& direction)
+               const gpu::EndContacts& contacts, const gpu::Vec3& direction, float length)
 {
     gpu::Vec3 origin = position;
     for (std::uint32_t i = 0; i < contacts.plane_count; ++i) {
         const gpu::ContactPlane& plane = arrays.contact_planes[contacts.first_plane + i];
-        origin += glm::dot(direction, plane.normal) < 0 ? -plane.push : plane.push;
+        const float clearance = std::max(0.0f, plane.clearance + gpu::clearance_per_length * length);
+        origin += (glm::dot(direction, plane.normal) < 0 ? -clearance : clearance) * plane.push;
     }
     return Vec3(origin);
 }
@@ -51,10 +54,11 @@ void check_end(const scenes::Scene& scene, const gpu::SceneArrays& arrays, const
                const gpu::Vec3& position, const gpu::EndContacts& contacts)
 {
     const gpu::Vec3 direction(any_direction());
-    const Vec3 origin = origin_of(arrays, position, contacts, direction);
+    // Of a ray that leaves, or of a segment of any length that comes.
+    const double length =
+        static_cast<double>(arrays.diagonal) * std::max(0, *rc::gen::inRange(-5, 11)) / 10;
+    const Vec3 origin = origin_of(arrays, position, contacts, direction, static_cast<float>(length));
     const double near = 1e-3 / arrays.place.scale;
-    // What a segment may err by (clearance.h, step 3): nearer than that a plane would be met by chance.
-    const double uncertain = 12.4 * 0x1p-24 * arrays.diagonal;
     int looked_at = 0;
     for (const scenes::NearSurface& surface : scenes::surfaces_near(scene, exact, near)) {
         if (surface.primitive >= arrays.triangles.size()) continue;
@@ -62,13 +66,21 @@ void check_end(const scenes::Scene& scene, const gpu::SceneArrays& arrays, const
         const int side = surface.side != 0                               ? surface.side
                          : glm::dot(Vec3(direction), surface.normal) < 0 ? -1
                                                                          : 1;
-        RC_ASSERT(side * height > uncertain);
+        // What a ray or segment may err by (clearance.h, steps 3 and 4): nearer than that a plane would
+        // be met by chance.
+        const auto& v = arrays.triangles[surface.primitive].vertices;
+        const Vec3 a(gpu::triangle_extent(v[1] - v[0], v[2] - v[0]));
+        const Vec3 n = glm::abs(surface.normal);
+        const double uncertain =
+            2 * glm::dot(n, a) + 5 * std::max({a.x, a.y, a.z}) * (n.x + n.y + n.z) + 11.7 * length;
+        RC_ASSERT(side * height > 0x1p-24 * uncertain);
         ++looked_at;
     }
     RC_CLASSIFY(looked_at > 0, "near a triangle");
-    // And it stays where it is: three planes at right angles move it by sqrt(3) clearances at most.
+    // And it stays where it is: three planes at right angles move it by sqrt(3) clearances at most, each
+    // of 14 u D for the ray, 3 u D for what was rounded, and 24 u for each unit of length.
     RC_ASSERT(glm::length(origin - (exact - arrays.place.origin) * arrays.place.scale) <
-              40 * 0x1p-24 * arrays.diagonal);
+              std::sqrt(3.0) * 0x1p-24 * (18 * arrays.diagonal + 24.1 * length));
 }
 
 RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())

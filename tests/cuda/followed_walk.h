@@ -52,6 +52,15 @@ ref::Uniforms float_uniforms(const ref::SampleId& id, ref::Event event, std::uin
 /// The surface at `position`, with the normal and the clearance that the floats have there.
 ref::SurfacePoint surface_of(const ref::World& world, const gpu::SurfacePoint& point);
 
+struct Range {
+    double low, high;
+};
+
+/// How far from the primitive, in floats, a ray may begin that leaves it at `p` (clearance.h), whatever
+/// the weights of p and with a thousandth for rounding.
+Range clearance_of(const ref::World& world, std::uint32_t primitive, const ref::Vec3& p,
+                   const ref::Vec3& normal);
+
 /// Throws Disagreement unless `point` lies on its primitive and has its normal and a sensible clearance.
 void require_on_surface(const ref::World& world, const gpu::SurfacePoint& point);
 

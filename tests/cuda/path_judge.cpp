@@ -133,7 +133,9 @@ std::optional<Judged> PathJudge::inner_connection(std::size_t s, std::size_t t, 
     const bool seen = visible(world.geometry, y.point, z.point);
     if (seen != found) {
         LineOfSight line = line_from(z.point, w);
-        line.to = leave_surface(y.point, -w);
+        line.to =
+            leave_surface(y.point, -w) +
+            std::copysign(24 * roundoff * glm::length(d), -glm::dot(w, y.point.normal)) * y.point.normal;
         line.to_slack = 4 * roundoff * glm::length(line.to);
         line.end = y.point.primitive;
         explain_sight(world, line, found);

@@ -62,11 +62,12 @@ std::optional<Judged> PathJudge::next_event(std::size_t t, bool found) const
         }
         if (c < 0) return std::nullopt;
         error += 2 * turned + c_error / c;
-        // From 16 u D off the surface on, see require_on_surface: its own end it meets nowhere there.
-        const double least = 15.9 * roundoff * world.geometry.diagonal();
+        const Range clearance = clearance_of(world, end.primitive, end.position, end.normal);
+        const double for_length = 24 * roundoff * distance;
         line = line_from(last.point, end.position - p);
-        line.to = end.position + least * end.normal;
-        line.to_slack = 80 * roundoff * world.geometry.diagonal() + off;
+        line.to = end.position + (clearance.low + for_length) * end.normal;
+        // A normal that is wrong turns what the end is moved by: of second order, as the length is.
+        line.to_slack = 1.01 * (clearance.high - clearance.low + off) + 0.01 * for_length;
         line.end = end.primitive;
         break;
     }

@@ -64,11 +64,30 @@ void require_on_surface(const ref::World& world, const gpu::SurfacePoint& point)
     require(std::abs(off) <= bound, "a vertex is off its surface");
     require(glm::length(Vec3(point.normal) - normal) <= normal_error(world, surface_of(world, point)),
             "a normal");
-    // clearance.h: at least 16 u D, at most 32 u D for the ray and 13 u D for the point, along each of
-    // three coordinates of a unit vector, D the diagonal of the scene.
-    const double D = world.geometry.diagonal();
-    require(point.clearance >= 15.9 * roundoff * D && point.clearance <= 46 * 1.74 * roundoff * D,
-            "a clearance");
+    const Range clearance = clearance_of(world, point.primitive, p, Vec3(point.normal));
+    require(point.clearance >= clearance.low && point.clearance <= clearance.high, "a clearance");
+}
+
+Range clearance_of(const ref::World& world, std::uint32_t primitive, const Vec3& p, const Vec3& normal)
+{
+    const Vec3 n = glm::abs(normal);
+    const double position = 2 * glm::dot(n, glm::abs(p));
+    const std::size_t triangles = world.scene.triangles.size();
+    if (primitive >= triangles) {
+        const double clearance = position + 56 * world.scene.spheres[primitive - triangles].radius;
+        return {0.999 * roundoff * clearance, 1.001 * roundoff * clearance};
+    }
+    const auto& v = world.scene.triangles[primitive].vertices;
+    const Vec3 edges = glm::abs(v[1] - v[0]) + glm::abs(v[2] - v[0]);
+    const Vec3 own = glm::max(glm::max(v[0], v[1]), v[2]) - glm::min(glm::min(v[0], v[1]), v[2]);
+    const auto of_extent = [&](const Vec3& a) {
+        return glm::dot(n, 2.0 * a) + 6 * std::max({a.x, a.y, a.z}) * (n.x + n.y + n.z);
+    };
+    // Its weights of the edges are between 0 and 1.
+    const double least = position + of_extent(own);
+    const double most =
+        position + of_extent(world.geometry.extent(primitive, own)) + 4 * glm::dot(n, edges);
+    return {0.999 * roundoff * least, 1.001 * roundoff * most};
 }
 
 namespace {
