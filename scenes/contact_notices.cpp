@@ -2,6 +2,8 @@
 
 #include "scenes/contacts.h"
 
+#include "scenes/largest_component.h"
+
 #include <glm/geometric.hpp>
 
 namespace scenes {
@@ -27,9 +29,10 @@ bool is_worth_a_word(const Scene& scene, std::uint32_t a, std::uint32_t b)
                std::holds_alternative<Mirror>(scene.materials[material]);
     };
     if (!is_opaque(material_a) || !is_opaque(material_b) || a >= scene.triangles.size()) return true;
-    const auto normal = [&](std::uint32_t triangle) {
+    const auto normal = [&](std::uint32_t triangle) { // of no known length
         const auto& v = scene.triangles[triangle].vertices;
-        return glm::cross(v[1] - v[0], v[2] - v[0]);
+        const Vec3 across = glm::cross(v[1] - v[0], v[2] - v[0]);
+        return across / largest_component(across); // those that coincide have an area
     };
     return glm::dot(normal(a), normal(b)) > 0;
 }
@@ -43,6 +46,21 @@ void add_end(std::vector<std::string>& notices, const Scene& scene, const std::s
         on.size() > 1 ? " and " + std::to_string(on.size() - 1) + " more surface(s)" : "";
     notices.push_back(what + " lies on " + describe(scene, on[0]) + others +
                       ": it is not hidden by what it lies on");
+}
+
+/// From how many surfaces in one place on a person should know that they cost time: a leaf of a tree
+/// holds a few, and a ray into it tests them all.
+constexpr std::size_t many = 64;
+
+void add_crowd(std::vector<std::string>& notices, const Scene& scene, const Coincidences& coincident)
+{
+    std::uint32_t fullest = 0;
+    for (std::uint32_t i = 0; i < primitive_count(scene); ++i)
+        if (coincident.of(i).size() > coincident.of(fullest).size()) fullest = i;
+    if (primitive_count(scene) == 0 || coincident.of(fullest).size() < many) return;
+    notices.push_back(std::to_string(coincident.of(fullest).size()) + " surfaces coincide with " +
+                      describe(scene, fullest) +
+                      ": no tree can part them, and every ray that comes near tests them all");
 }
 
 } // namespace
@@ -76,8 +94,10 @@ std::vector<std::string> contact_notices(const Scene& scene)
             "glass; of two of one kind the one that comes first in the file");
     if (!complete)
         notices.emplace_back(
-            "more than 4096 surfaces overlap in one place: which of those that coincide a "
-            "ray sees depends on rounding there");
+            "more than 4096 surfaces overlap in one place: no tree can part them, every ray that comes "
+            "near tests them all, and which of those that coincide it sees depends on rounding");
+    else
+        add_crowd(notices, scene, coincident);
     return notices;
 }
 

@@ -214,6 +214,28 @@ TEST(ContactNotices, SayNothingOfABodyThatStandsOnTheGround)
     EXPECT_EQ(scenes::contact_notices(scene).size(), 1u);
 }
 
+TEST(ContactNotices, SayThatNoTreePartsWhatIsInOnePlace)
+{
+    Scene scene;
+    scene.material_names = {"wall"};
+    scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
+    const auto add = [&](int count) {
+        for (int i = 0; i < count; ++i)
+            scene.triangles.push_back({{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, 0});
+    };
+    add(50);
+    EXPECT_TRUE(scenes::contact_notices(scene).empty());
+    add(50);
+    ASSERT_EQ(scenes::contact_notices(scene).size(), 1u);
+    EXPECT_EQ(
+        scenes::contact_notices(scene)[0],
+        "99 surfaces coincide with triangle 1 (material \"wall\"): no tree can part them, and every "
+        "ray that comes near tests them all");
+    add(5000);
+    ASSERT_EQ(scenes::contact_notices(scene).size(), 1u);
+    EXPECT_TRUE(scenes::contact_notices(scene)[0].starts_with("more than 4096 surfaces overlap"));
+}
+
 TEST(ContactNotices, NameWhatTouches)
 {
     Scene scene;
