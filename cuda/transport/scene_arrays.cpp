@@ -103,12 +103,26 @@ public:
         arrays_.lights.push_back(light);
         powers_.push_back(power);
     }
+    /// Such an emitter cannot be chosen; finish() throws if it would be missed.
+    void add_collapsed(EmitterKind kind, std::size_t index, double power)
+    {
+        add(kind, index, 0, 0, scenes::Rgb(0.0));
+        collapsed_power_ += power;
+        ++collapsed_;
+    }
     /// The number of the emitter that comes next.
     [[nodiscard]] std::uint32_t next() const { return static_cast<std::uint32_t>(powers_.size()); }
     void finish()
     {
         double total = 0;
         for (const double power : powers_) total += power;
+        // 2^-20 is far less than any picture shows.
+        if (collapsed_power_ > 0x1p-20 * total)
+            throw std::invalid_argument(
+                std::to_string(collapsed_) +
+                " emitting triangle(s) are too small or too thin for single precision, and " +
+                std::to_string(100 * collapsed_power_ / (total + collapsed_power_)) +
+                "% of the light comes from there");
         if (!(total > 0)) {
             // Nothing can be chosen; but a sky over no surfaces, on which nothing of it falls, is seen.
             for (Surface& surface : arrays_.surfaces) surface.emitter = no_emitter;
@@ -125,6 +139,8 @@ public:
 private:
     SceneArrays& arrays_;
     std::vector<double> powers_;
+    double collapsed_power_ = 0;
+    std::size_t collapsed_ = 0;
 };
 
 /// In the order of the reference, so that the same number chooses the same emitter.
@@ -142,9 +158,12 @@ void add_emitters(SceneArrays& arrays, const scenes::Scene& scene, double radius
             const scenes::Vec3 e1 = arrays.place.scale * (v[1] - v[0]);
             const scenes::Vec3 e2 = arrays.place.scale * (v[2] - v[0]);
             const double area = glm::length(glm::cross(e1, e2)) / 2.0;
+            const double power = std::numbers::pi * area * average(emits->radiance);
             arrays.surfaces[i].emitter = list.next();
-            list.add(EmitterKind::triangle, i, area, std::numbers::pi * area * average(emits->radiance),
-                     emits->radiance);
+            if (has_area(scene.triangles[i], arrays.place))
+                list.add(EmitterKind::triangle, i, area, power, emits->radiance);
+            else
+                list.add_collapsed(EmitterKind::triangle, i, power);
         }
     for (std::size_t i = 0; i < scene.spheres.size(); ++i)
         if (const auto* emits = emission(scene.spheres[i].material)) {

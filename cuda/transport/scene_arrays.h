@@ -48,7 +48,7 @@ constexpr double most_exponent = 0x1p32;
 
 /// `scene` as arrays. With no `roulette` every material lets every walk go on. All sums are formed in
 /// double, and rounded once. Throws std::invalid_argument for a spot light that is narrower than floats
-/// can hold.
+/// can hold, and where triangles that have no area as floats emit more than 2^-20 of the light.
 SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette);
 
 /// The scene's camera for pictures of `width` x `height` pixels; the scene must have one.
