@@ -68,9 +68,9 @@ public:
 };
 
 /// Renders on `threads` threads of the host. The scene must have a camera; it is copied. Throws
-/// std::invalid_argument for coordinates that are not finite as floats, for lights that floats cannot hold
-/// (scene_arrays.h), for a picture of no pixels or of 2^32 and more, and for options that contradict each
-/// other; OutOfMemory.
+/// std::invalid_argument for coordinates that are not finite as floats, for lights that floats cannot
+/// hold (scene_arrays.h), for a picture of no pixels or of 2^32 and more, and for options that
+/// contradict each other; OutOfMemory.
 std::unique_ptr<Renderer> host_renderer(const scenes::Scene& scene, int width, int height,
                                         const RenderOptions& options, unsigned threads);
 
