@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <span>
 #include <stdexcept>
+#include <string>
 
 namespace gpu {
 
@@ -42,6 +44,45 @@ private:
     std::uint32_t least_, most_, size_;
 };
 
+/// How many elements or pixels one launch counts: an index has 32 bits.
+constexpr std::size_t most_per_launch = 0xffff'ffff;
+
+/// The number of pixels of a picture. Throws std::invalid_argument where there are none, or more than an
+/// index can count.
+inline std::uint32_t pixel_count(int width, int height)
+{
+    const std::int64_t pixels = std::int64_t{width} * height;
+    if (width < 1 || height < 1 || pixels > static_cast<std::int64_t>(most_per_launch))
+        throw std::invalid_argument("a picture of " + std::to_string(width) + "x" +
+                                    std::to_string(height) + " pixels: expected 1 to " +
+                                    std::to_string(most_per_launch) + " pixels");
+    return static_cast<std::uint32_t>(pixels);
+}
+
+/// The number of the first of the `batch_size` samples per pixel of batch `number`. Throws
+/// std::invalid_argument for a batch that goes beyond 32 bits: its random numbers would be those of an
+/// earlier one.
+inline std::uint32_t first_sample_of(std::uint64_t number, std::uint32_t batch_size)
+{
+    if (batch_size > 0 && number >= (std::uint64_t{1} << 32) / batch_size)
+        throw std::invalid_argument("batch " + std::to_string(number) + " of " +
+                                    std::to_string(batch_size) +
+                                    " samples per pixel: a pixel has at most 2^32 samples");
+    return static_cast<std::uint32_t>(number * batch_size);
+}
+
+/// Queues that all elements get their default value, however many they are: exact sums of a large
+/// picture with layers are more than an index can count. At most `most` per launch.
+template <class T, Executor E>
+void clear(E& executor, std::span<T> elements, std::size_t most = most_per_launch)
+{
+    while (!elements.empty()) {
+        const std::size_t count = std::min(elements.size(), most);
+        executor(static_cast<std::uint32_t>(count), Clear<T>{elements.first(count)});
+        elements = elements.subspan(count);
+    }
+}
+
 /// A Renderer on an executor whose kernels work on `memory`, and whose wait() returns when all that was
 /// queued is done.
 template <Executor E>
@@ -55,12 +96,12 @@ public:
 
     std::optional<Batch> render_batch(std::uint64_t number, const Monitor& monitor) override
     {
-        clear(sums_);
-        clear(splats_);
-        clear(exact_);
-        clear(layers_);
-        clear(dropped_);
-        const auto first = static_cast<std::uint32_t>(number * options_.batch_size);
+        const std::uint32_t first = first_sample_of(number, options_.batch_size);
+        clear(executor_, sums_.all());
+        clear(executor_, splats_.all());
+        clear(executor_, exact_.all());
+        clear(executor_, layers_.all());
+        clear(executor_, dropped_.all());
         std::uint64_t done = 0;
         const std::uint64_t all = std::uint64_t{pixels_} * options_.batch_size;
         // Sample after sample of as many pixels as a launch takes, then the next pixels.
@@ -92,8 +133,7 @@ private:
     BatchRenderer(Memory& memory, E& executor, const LaunchLimits& limits, const scenes::Scene& scene,
                   const SceneArrays& arrays, int width, int height, const RenderOptions& options)
         : executor_(executor), options_(checked(options)), width_(width), height_(height),
-          pixels_(static_cast<std::uint32_t>(width * height)),
-          needs_(needs_of(arrays) | options.at_least),
+          pixels_(pixel_count(width, height)), needs_(needs_of(arrays) | options.at_least),
           scene_(memory, executor, arrays, camera_of(scene, arrays.place, width, height)),
           capacity_(options_.integrator == Integrator::bdpt
                         ? most_light_vertices(arrays, options_.max_edges)
@@ -123,12 +163,6 @@ private:
         return options_.layers == Layers::none ? 1 : 1 + static_cast<std::size_t>(options_.max_edges);
     }
     [[nodiscard]] std::size_t layer_count() const { return layer_of(options_.max_edges, 1) + 1; }
-
-    template <class T>
-    void clear(Buffer<T>& buffer)
-    {
-        executor_(static_cast<std::uint32_t>(buffer.size()), Clear<T>{buffer.all()});
-    }
 
     void run(const Launch& launch)
     {

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace gpu {
 
@@ -57,6 +59,8 @@ void add_coincident(SceneArrays& arrays, const scenes::Scene& scene, const scene
                                                                                                      : 1;
             arrays.coincident.push_back({other, side});
         }
+        if (arrays.coincident.size() > std::numeric_limits<std::uint32_t>::max())
+            throw std::invalid_argument("more than 2^32 - 1 pairs of surfaces that coincide");
         arrays.surfaces[i].coincident_count = static_cast<std::uint32_t>(in_floats.of(i).size());
     }
 }

@@ -65,19 +65,32 @@ HD SurfacePoint sample_surface(const SceneView<needs>& scene, const Emitter& emi
     return triangle_point(scene, emitter.index, b1, b2);
 }
 
-/// Intensity towards the unit direction `w`, as a fraction of that along the axis.
-HD inline float spot_falloff(const Light& spot, const Vec3& w)
+/// 1 - cos of the angle between two unit vectors.
+///
+/// A cosine near 1 is known to within u = 2^-24, which is all of 1 - cos for an angle of 0.02 degrees.
+/// For |a| = 1 + e and |b| = 1 + f, e and f at most 4 u, however,
+///     |a - b|^2 / 2 = (1 + e) (1 + f) (1 - cos) + (e - f)^2 / 2:
+/// the lengths enter by 8 u relatively and by 8 u^2. The differences of coordinates, the squares and
+/// their sum round by 5 u relatively. What is left are the directions of a and b: an angle of d between
+/// the true and the rounded one changes 1 - cos by d sin.
+HD inline float versine(const Vec3& a, const Vec3& b)
 {
-    const float cosine = glm::dot(spot.direction, w);
-    if (cosine <= spot.cos_cutoff) return 0.0f;
+    const Vec3 difference = a - b;
+    return 0.5f * glm::dot(difference, difference);
+}
+
+/// Intensity of a spot light in a direction of its cone, as a fraction of that along the axis; `versine`
+/// is that of the angle from the axis. cos^n = exp(n log(1 - versine)).
+HD inline float spot_falloff(const Light& spot, float versine)
+{
     if (spot.exponent == 0.0f) return 1.0f;
-    return cosine > 0.0f ? std::pow(cosine, spot.exponent) : 0.0f;
+    return versine < 1.0f ? std::exp(spot.exponent * std::log1p(-versine)) : 0.0f;
 }
 
 /// Directions of a spot light are uniform in its cone.
 HD inline float pdf_solid_angle_cone(const Light& spot)
 {
-    return 1.0f / (2.0f * pi * (1.0f - spot.cos_cutoff));
+    return 1.0f / (2.0f * pi * spot.versine_cutoff);
 }
 
 /// With which the emitter and the point y_0 are drawn: per area on a surface, per solid angle for the
@@ -157,7 +170,9 @@ HD bool sample_incident(const SceneView<needs>& scene, const Vec3& from, const U
             light.alpha *= light.spread;
             light.pdf_direction = pdf_solid_angle_sphere;
             if (emitter.kind == EmitterKind::spot) {
-                light.alpha *= spot_falloff(source, -light.wi);
+                const float off_axis = versine(source.direction, -light.wi);
+                if (!(off_axis < source.versine_cutoff)) return false;
+                light.alpha *= spot_falloff(source, off_axis);
                 light.pdf_direction = pdf_solid_angle_cone(source);
             }
         }
@@ -212,12 +227,14 @@ HD SampledEmission sample_emission(const SceneView<needs>& scene, const Uniforms
             emission.pdf_direction = pdf_solid_angle_sphere;
             emission.alpha = emitter.emitted;
             if (emitter.kind == EmitterKind::spot) {
-                const float below = direction[0] * (1.0f - light.cos_cutoff); // 1 - cos(theta)
-                Vec3 w_local(0.0f, 0.0f, 1.0f - below);
-                on_circle(std::sqrt(below * (2.0f - below)), direction[1], w_local.x, w_local.y);
+                const float off_axis = direction[0] * light.versine_cutoff; // 1 - cos(theta)
+                Vec3 w_local(0.0f, 0.0f, 1.0f - off_axis);
+                on_circle(std::sqrt(off_axis * (2.0f - off_axis)), direction[1], w_local.x, w_local.y);
                 w = glm::normalize(Frame(light.direction).to_world(w_local));
                 emission.pdf_direction = pdf_solid_angle_cone(light);
-                emission.alpha *= spot_falloff(light, w);
+                // Of the angle as drawn: what w rounds to may lie outside of the cone, and none of the
+                // power may be lost by it.
+                emission.alpha *= spot_falloff(light, off_axis);
             }
             emission.end.position = light.position;
             emission.ray = {leave_end(scene, light.position, light.contacts, w), infinity, w};

@@ -60,6 +60,7 @@ public:
     Renderer& operator=(const Renderer&) = delete;
 
     /// Renders the batch of that number, whatever was rendered before. None if `monitor` said stop.
+    /// Throws std::invalid_argument where a pixel would get more than 2^32 samples.
     virtual std::optional<Batch> render_batch(std::uint64_t number, const Monitor& monitor) = 0;
 
     /// What the kernels that render can do: what the scene needs, and RenderOptions::at_least.
@@ -67,8 +68,9 @@ public:
 };
 
 /// Renders on `threads` threads of the host. The scene must have a camera; it is copied. Throws
-/// std::invalid_argument for coordinates that are not finite as floats and for options that contradict
-/// each other, OutOfMemory.
+/// std::invalid_argument for coordinates that are not finite as floats, for lights that floats cannot
+/// hold (scene_arrays.h), for a picture of no pixels or of 2^32 and more, and for options that
+/// contradict each other; OutOfMemory.
 std::unique_ptr<Renderer> host_renderer(const scenes::Scene& scene, int width, int height,
                                         const RenderOptions& options, unsigned threads);
 

@@ -5,7 +5,11 @@
 #include "scenes/bounds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <stdexcept>
 
 namespace gpu {
 
@@ -52,6 +56,41 @@ double spot_solid_angle(const scenes::SpotLight& spot)
     return 2.0 * std::numbers::pi * (1.0 - std::pow(c, spot.exponent + 1.0)) / (spot.exponent + 1.0);
 }
 
+/// 1 - cos of the half angle of the cone that a spot light's directions are drawn in.
+///
+/// Beyond cos^n < 2^-150 the intensity is 0 as a float. Where that lobe is less than a quarter of the
+/// cone, the cone ends with it: else few walks would begin in the lobe, and these in few directions, as
+/// the numbers u that choose them are multiples of 2^-24. A sum over these in place of the integral errs
+/// by half a step, n (1 - c) 2^-25 of the power; now n (1 - c) is at most about 4 * 104. For such a
+/// light the density is not that of the reference, and its light walks are other ones.
+double versine_cutoff(const scenes::SpotLight& spot)
+{
+    const double cone = 1.0 - spot.cos_cutoff;
+    if (!(spot.exponent > 0.0)) return cone;
+    const double lobe = -std::expm1(-150.0 * std::numbers::ln2 / spot.exponent);
+    return lobe < cone / 4.0 ? lobe : cone;
+}
+
+/// Throws std::invalid_argument for the spot light of that index if floats cannot hold it.
+void check_spot(const scenes::SpotLight& spot, std::size_t index)
+{
+    const auto refuse = [&](const char* format, double number, double limit) {
+        std::array<char, 160> what{};
+        std::snprintf(what.data(), what.size(), format, index + 1, number, limit);
+        throw std::invalid_argument(what.data());
+    };
+    const double half_angle = 2.0 * std::asin(std::sqrt((1.0 - spot.cos_cutoff) / 2.0));
+    const auto full_degrees = [](double half) { return half * 360.0 / std::numbers::pi; };
+    if (!(half_angle >= least_half_angle))
+        refuse("spot light %zu: a cone of %.3g degrees is too narrow for single precision, which holds "
+               "%.3g and more",
+               full_degrees(half_angle), full_degrees(least_half_angle));
+    if (!(spot.exponent <= most_exponent))
+        refuse("spot light %zu: an exponent of %.3g is too large for single precision, which holds up "
+               "to %.3g",
+               spot.exponent, most_exponent);
+}
+
 /// Collects emitters with their power, and gives them their probabilities in the end.
 class EmitterList {
 public:
@@ -65,10 +104,26 @@ public:
         arrays_.lights.push_back(light);
         powers_.push_back(power);
     }
+    /// Such an emitter cannot be chosen; finish() throws if it would be missed.
+    void add_collapsed(EmitterKind kind, std::size_t index, double power)
+    {
+        add(kind, index, 0, 0, scenes::Rgb(0.0));
+        collapsed_power_ += power;
+        ++collapsed_;
+    }
     /// The number of the emitter that comes next.
     [[nodiscard]] std::uint32_t next() const { return static_cast<std::uint32_t>(powers_.size()); }
     void finish()
     {
+        double total = 0;
+        for (const double power : powers_) total += power;
+        // 2^-20 is far less than any picture shows.
+        if (collapsed_power_ > 0x1p-20 * total)
+            throw std::invalid_argument(
+                std::to_string(collapsed_) +
+                " emitting triangle(s) are too small or too thin for single precision, and " +
+                std::to_string(100 * collapsed_power_ / (total + collapsed_power_)) +
+                "% of the light comes from there");
         arrays_.cumulative = summed_probabilities(powers_);
         if (arrays_.cumulative.empty()) {
             // Nothing can be chosen; but a sky over no surfaces, on which nothing of it falls, is seen.
@@ -83,6 +138,8 @@ public:
 private:
     SceneArrays& arrays_;
     std::vector<double> powers_;
+    double collapsed_power_ = 0;
+    std::size_t collapsed_ = 0;
 };
 
 /// In the order of the reference, so that the same number chooses the same emitter.
@@ -100,9 +157,12 @@ void add_emitters(SceneArrays& arrays, const scenes::Scene& scene, double radius
             const scenes::Vec3 e1 = arrays.place.scale * (v[1] - v[0]);
             const scenes::Vec3 e2 = arrays.place.scale * (v[2] - v[0]);
             const double area = glm::length(glm::cross(e1, e2)) / 2.0;
+            const double power = std::numbers::pi * area * average(emits->radiance);
             arrays.surfaces[i].emitter = list.next();
-            list.add(EmitterKind::triangle, i, area, std::numbers::pi * area * average(emits->radiance),
-                     emits->radiance);
+            if (has_area(scene.triangles[i], arrays.place))
+                list.add(EmitterKind::triangle, i, area, power, emits->radiance);
+            else
+                list.add_collapsed(EmitterKind::triangle, i, power);
         }
     for (std::size_t i = 0; i < scene.spheres.size(); ++i)
         if (const auto* emits = emission(scene.spheres[i].material)) {
@@ -120,10 +180,11 @@ void add_emitters(SceneArrays& arrays, const scenes::Scene& scene, double radius
     }
     for (std::size_t i = 0; i < scene.spot_lights.size(); ++i) {
         const auto& light = scene.spot_lights[i];
+        check_spot(light, i);
         list.add(EmitterKind::spot, i, 0, square * spot_solid_angle(light) * average(light.intensity),
                  square * light.intensity,
                  {arrays.place(light.position), Vec3(light.direction),
-                  static_cast<float>(light.cos_cutoff), static_cast<float>(light.exponent)});
+                  static_cast<float>(versine_cutoff(light)), static_cast<float>(light.exponent)});
     }
     // What comes from infinity counts as far as it falls on a sphere around the scene.
     const double disc = std::numbers::pi * radius * radius;

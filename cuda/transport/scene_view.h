@@ -42,9 +42,10 @@ struct ContactPlane {
 
 /// A light of no extent, or at infinity.
 struct Light {
-    Vec3 position;  // of point and spot
-    Vec3 direction; // unit: in which it travels, or the spot's axis
-    float cos_cutoff, exponent;
+    Vec3 position;             // of point and spot
+    Vec3 direction;            // unit: in which it travels, or the spot's axis
+    float versine_cutoff;      // of a spot: 1 - cos of the angle from the axis to the edge of its cone
+    float exponent;            // of a spot, at most most_exponent (scene_arrays.h)
     EndContacts contacts = {}; // of point and spot
 };
 

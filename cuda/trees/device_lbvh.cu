@@ -9,6 +9,9 @@
 #include "cuda/trees/lbvh.h"
 #include "cuda/trees/surfaces.h"
 
+#include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -164,6 +167,8 @@ std::vector<Hit> closest_hits_on_device(std::span<const Triangle> triangles,
                                         std::span<const Sphere> spheres, std::span<const Ray> rays)
 {
     require_device();
+    if (rays.size() > std::numeric_limits<std::uint32_t>::max())
+        throw std::invalid_argument(std::to_string(rays.size()) + " rays at once: at most 2^32 - 1");
     const Stream stream;
     DeviceMemory memory(stream.get());
     CudaExecutor executor(stream.get());

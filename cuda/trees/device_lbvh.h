@@ -57,7 +57,8 @@ private:
 };
 
 /// The closest hits of rays with surfaces (surfaces.h) on the first GPU. Throws as DeviceLbvh does, and
-/// std::invalid_argument that names the first primitive that is not finite.
+/// std::invalid_argument for more than 2^32 - 1 rays and for a primitive that is not finite, by the
+/// number of the first.
 std::vector<Hit> closest_hits_on_device(std::span<const Triangle> triangles,
                                         std::span<const Sphere> spheres, std::span<const Ray> rays);
 

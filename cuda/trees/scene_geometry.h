@@ -20,8 +20,23 @@ struct Placement {
 
 // Coordinates beyond the range of floats become infinite, and a build will reject them.
 
+/// Whether the triangle can be hit on the fast path: it has area in the scene, and as floats.
+///
+/// In the scene: its height over its longest edge is more than its coordinates' own rounding, 2^-48 of
+/// the largest. A point between two others that is computed in double is as far off their line as 6
+/// roundings of 2^-53, the edges and their product add fewer than 20 in worst cases.
+///
+/// As floats: the rounded corners are not on one line. No ray could hit it in a place that makes sense,
+/// and its normal has no direction.
+bool has_area(const scenes::Triangle& triangle, const Placement& place = {});
+
 /// The triangles with every coordinate rounded to the nearest float: those that shared a vertex share it
 /// still.
+///
+/// A triangle without area becomes a point, its first corner. Rounded one by one, three corners on a
+/// line would be those of a sliver of about 2^-24 of the scene, and stop rays; at a point every edge
+/// function is exactly 0, and no ray ever hits it (intersect.h). Where such a triangle filled a
+/// T-junction of a mesh, rays may now pass where they met the sliver before: a gap of the same width.
 std::vector<Triangle> triangles_of(const scenes::Scene& scene, const Placement& place = {});
 
 /// The spheres, rounded likewise.

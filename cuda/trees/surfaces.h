@@ -10,6 +10,8 @@
 
 #include <cstdint>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -83,13 +85,13 @@ HD bool any_hit(const Surfaces<has_spheres>& surfaces, const Ray& ray)
 class SurfaceTree {
 public:
     /// Copies the surfaces from the host and builds, by `executor`, into `memory`, which is that of its
-    /// kernels and must outlive the tree. Waits for the build. Throws std::invalid_argument that names
-    /// the first primitive that has a coordinate that is NaN or infinite, or a negative radius;
-    /// OutOfMemory.
+    /// kernels and must outlive the tree. Waits for the build. Throws std::invalid_argument for more
+    /// than most_primitives, and for a primitive that has a coordinate that is NaN or infinite, or a
+    /// negative radius, by the number of the first; OutOfMemory.
     template <Executor E>
     SurfaceTree(Memory& memory, E& executor, std::span<const Triangle> triangles,
                 std::span<const Sphere> spheres)
-        : triangle_count_(static_cast<std::uint32_t>(triangles.size())), spheres_(memory, spheres),
+        : triangle_count_(checked(triangles.size(), spheres.size())), spheres_(memory, spheres),
           tree_(build(memory, executor, triangles))
     {}
 
@@ -104,6 +106,16 @@ public:
     [[nodiscard]] float diagonal() const { return diagonal_; }
 
 private:
+    /// The number of triangles, if it fits with that of the spheres.
+    static std::uint32_t checked(std::size_t triangles, std::size_t spheres)
+    {
+        if (triangles > most_primitives || spheres > most_primitives - triangles)
+            throw std::invalid_argument("a tree may have " + std::to_string(most_primitives) +
+                                        " primitives, not " + std::to_string(triangles) +
+                                        " triangles and " + std::to_string(spheres) + " spheres");
+        return static_cast<std::uint32_t>(triangles);
+    }
+
     template <Executor E>
     WideTree build(Memory& memory, E& executor, std::span<const Triangle> triangles)
     {

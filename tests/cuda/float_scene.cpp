@@ -15,14 +15,19 @@ namespace {
 
 using scenes::Vec3;
 
-Vec3 rounded(const Vec3& v)
+[[gnu::noinline]] float to_float(double x)
 {
-    return Vec3(glm::vec3(v));
+    return static_cast<float>(x);
 }
 
 double rounded(double x)
 {
-    return static_cast<double>(static_cast<float>(x));
+    return nearest_float(x);
+}
+
+Vec3 rounded(const Vec3& v)
+{
+    return nearest_float(v);
 }
 
 void round_materials(scenes::Scene& scene)
@@ -47,7 +52,8 @@ void round_lights(scenes::Scene& scene, const Vec3& origin, double scale)
         light = {rounded(scale * (light.position - origin)), rounded(square * light.intensity)};
     for (auto& light : scene.spot_lights)
         light = {rounded(scale * (light.position - origin)), rounded(light.direction),
-                 rounded(square * light.intensity), rounded(light.cos_cutoff), rounded(light.exponent)};
+                 rounded(square * light.intensity), 1 - rounded(1 - light.cos_cutoff),
+                 rounded(light.exponent)};
     for (auto& light : scene.directional_lights)
         light = {rounded(light.direction), rounded(light.irradiance)};
     if (scene.environment) scene.environment = rounded(*scene.environment);
@@ -90,6 +96,16 @@ double scale_of(const scenes::Bounds& box)
 }
 
 } // namespace
+
+double nearest_float(double x)
+{
+    return static_cast<double>(to_float(x));
+}
+
+scenes::Vec3 nearest_float(const scenes::Vec3& v)
+{
+    return {nearest_float(v.x), nearest_float(v.y), nearest_float(v.z)};
+}
 
 scenes::Scene float_scene(scenes::Scene scene)
 {

@@ -59,4 +59,38 @@ TEST(FloatScene, IsLeftWhereItIs)
             EXPECT_EQ(scenes::Vec3(arrays.triangles[i].vertices[k]), scene.triangles[i].vertices[k]);
 }
 
+bool is_float(double x)
+{
+    const volatile auto nearest = static_cast<float>(x);
+    return static_cast<double>(nearest) == x;
+}
+
+bool is_float(const scenes::Vec3& v)
+{
+    return is_float(v.x) && is_float(v.y) && is_float(v.z);
+}
+
+TEST(FloatScene, HasNothingButFloats)
+{
+    const scenes::Scene scene = cuda_test::float_scene(all_emitters());
+    EXPECT_TRUE(is_float(scene.camera->eye) && is_float(scene.camera->right) &&
+                is_float(scene.camera->up) && is_float(scene.camera->backward));
+    for (const auto& triangle : scene.triangles)
+        for (const auto& v : triangle.vertices) EXPECT_TRUE(is_float(v));
+    for (const auto& sphere : scene.spheres)
+        EXPECT_TRUE(is_float(sphere.center) && is_float(sphere.radius));
+    for (const auto& material : scene.materials)
+        if (const auto* lambertian = std::get_if<scenes::Lambertian>(&material)) {
+            EXPECT_TRUE(is_float(lambertian->albedo));
+        }
+    for (const auto& light : scene.point_lights)
+        EXPECT_TRUE(is_float(light.position) && is_float(light.intensity));
+    for (const auto& light : scene.directional_lights)
+        EXPECT_TRUE(is_float(light.direction) && is_float(light.irradiance));
+    ASSERT_FALSE(scene.spot_lights.empty());
+    for (const auto& light : scene.spot_lights)
+        EXPECT_TRUE(is_float(light.position) && is_float(light.direction) && is_float(light.intensity) &&
+                    is_float(1 - light.cos_cutoff) && is_float(light.exponent));
+}
+
 } // namespace

@@ -82,9 +82,10 @@ std::optional<Judged> PathJudge::next_event(std::size_t t, bool found) const
         if (emitter.kind == ref::EmitterKind::point) break;
         const auto& spot = world.scene.spot_lights[emitter.index];
         const double c = glm::dot(spot.direction, glm::normalize(p - position));
-        if (std::abs(c - spot.cos_cutoff) <= cosine_error) throw Undecided("the rim of a spot");
-        if (spot.exponent > 0 && std::abs(c) <= 20 * cosine_error) throw Undecided("the rim of a spot");
-        error += (spot.exponent + 2) * cosine_error / (spot.exponent > 0 ? std::abs(c) : 1.0);
+        const double c_error = spot_cosine_error(c);
+        if (std::abs(c - spot.cos_cutoff) <= c_error) throw Undecided("the rim of a spot");
+        if (spot.exponent > 0 && std::abs(c) <= 20 * c_error) throw Undecided("the rim of a spot");
+        error += spot_falloff_error(spot.exponent, std::abs(c), c_error);
         break;
     }
     case ref::EmitterKind::directional:

@@ -28,6 +28,15 @@
 //    4u |e1| |e2|, sqrt(3) times that is less than 7u; over the length of the product, with 5u for the
 //    normalisation. That of a sphere is compared with (p - c) / r.
 // 7. Cosines of two unit vectors err by 3u, and by what their directions do, 5u: 8u together.
+// 8. The versine v = 1 - c from a spot's axis to a direction w (emitter.h) that is computed from two
+//    points: w is rounded twice in every coordinate, an angle of less than 3u, which is 3u s for the
+//    sine s; its length errs by 4u, that of the axis as a float by u, the computation of v by 5u: 10u v.
+//    The squared difference of the lengths is of second order. The reference has c = dot(axis, w), where
+//    the axis is not quite of unit length: u. Together (10 v + 3 s + 1) u.
+//    A direction drawn in the cone has v = u1 (1 - cos_cutoff), rounded once; the c of the reference
+//    errs by the length of the axis, which enters its frame and the product: less than 8u. cos^n = exp(n
+//    log1p(-v)): with e the error of v, log(1 - v) errs by e / c, and in floats by 2u of itself; the
+//    product adds u of itself, and exp 4u: n e / c + (3 n |log c| + 4) u.
 
 #include "ref/transport/bsdf.h"
 
@@ -43,6 +52,22 @@ constexpr double roundoff = 0x1p-24;
 
 /// Of a cosine, apart from what is known of its directions [7].
 constexpr double cosine_error = 8 * roundoff;
+/// Of 1 - v against the reference's cosine `c`, from a spot's axis to another point [8].
+inline double spot_cosine_error(double c)
+{
+    const double sine = std::sqrt(std::max(0.0, 1 - c * c));
+    return (11 * (1 - c) + 3 * sine + 2) * roundoff;
+}
+
+/// The same for a direction drawn in the cone [8].
+constexpr double drawn_spot_cosine_error = 8 * roundoff;
+
+/// Of c^n, relatively, where the cosine `c` > 0 is known to within `error` < c [8].
+inline double spot_falloff_error(double n, double c, double error)
+{
+    return n > 0 ? n * error / (c - error) + (4 * n * std::abs(std::log(c)) + 5) * roundoff : 0;
+}
+
 /// Of a direction drawn around a normal or axis, or reflected [3, 4].
 constexpr double direction_error = 36 * roundoff;
 

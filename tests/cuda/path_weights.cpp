@@ -78,7 +78,7 @@ double PathJudge::quotient_error(const JoinedPath& x) const
         if (vertex.kind == Vertex::Kind::source && vertex.emitter->kind == ref::EmitterKind::spot) {
             const auto& light = setting_.world.scene.spot_lights[vertex.emitter->index];
             const double cosine = glm::dot(light.direction, direction(vertex, *x.vertices[1]));
-            if (std::abs(cosine - light.cos_cutoff) <= x.turned[0] + cosine_error)
+            if (std::abs(cosine - light.cos_cutoff) <= x.turned[0] + spot_cosine_error(cosine))
                 throw Undecided("the rim of a spot");
         }
         if (vertex.kind != Vertex::Kind::surface) continue;

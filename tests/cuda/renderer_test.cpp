@@ -11,7 +11,12 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <limits>
 #include <numeric>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -58,6 +63,70 @@ TEST(LaunchSize, GrowsAndShrinksBetweenItsLimits)
     EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 100).most(), 8u);
     EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 100).get(), 8u);
     EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 5000).most(), 1u);
+}
+
+/// Counts what is launched.
+struct CountingExecutor {
+    std::vector<std::uint32_t> counts;
+    template <gpu::Kernel K>
+    void operator()(std::uint32_t count, const K& kernel)
+    {
+        counts.push_back(count);
+        for (std::uint32_t i = 0; i < count; ++i) kernel(i);
+    }
+};
+
+// With a small number for what an index can count.
+TEST(Clear, ReachesEveryElementOnceHoweverManyLaunchesItTakes)
+{
+    using Counts = std::vector<std::uint32_t>;
+    const auto launches = [](std::size_t size) {
+        std::vector<std::uint64_t> elements(size + 1, 5);
+        CountingExecutor executor;
+        gpu::clear(executor, std::span(elements).first(size), 7);
+        EXPECT_EQ(std::accumulate(elements.begin(), elements.end(), std::uint64_t{0}), 5u);
+        EXPECT_EQ(elements.back(), 5u);
+        return executor.counts;
+    };
+    EXPECT_EQ(launches(0), Counts{});
+    EXPECT_EQ(launches(6), Counts{6});
+    EXPECT_EQ(launches(7), Counts{7});
+    EXPECT_EQ(launches(8), (Counts{7, 1}));
+    EXPECT_EQ(launches(21), (Counts{7, 7, 7}));
+    static_assert(gpu::most_per_launch == std::numeric_limits<std::uint32_t>::max());
+}
+
+template <class Function>
+std::string refusal_of(const Function& function)
+{
+    try {
+        function();
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(BatchRenderer, RefusesWhatItsNumbersCannotCount)
+{
+    EXPECT_EQ(gpu::pixel_count(65535, 65537), 0xffff'ffffu);
+    const auto size = [](int w, int h) {
+        return refusal_of([&] { (void)gpu::host_renderer(our_scene("cornell_glass"), w, h, {}, 1); });
+    };
+    const std::string expected = " pixels: expected 1 to 4294967295 pixels";
+    EXPECT_EQ(size(65536, 65536), "a picture of 65536x65536" + expected); // 2^32 would be none at all
+    EXPECT_EQ(size(65537, 65536), "a picture of 65537x65536" + expected); // and this 65536
+    EXPECT_EQ(size(0, 5), "a picture of 0x5" + expected);
+    EXPECT_EQ(size(-2, -3), "a picture of -2x-3" + expected);
+
+    const auto renderer =
+        gpu::host_renderer(our_scene("cornell_glass"), 2, 2, short_paths(Integrator::path), 1);
+    const std::uint64_t last = (std::uint64_t{1} << 32) / 4 - 1; // of four samples per pixel
+    EXPECT_TRUE(renderer->render_batch(last, {}));
+    EXPECT_EQ(refusal_of([&] { (void)renderer->render_batch(last + 1, {}); }),
+              "batch 1073741824 of 4 samples per pixel: a pixel has at most 2^32 samples");
+    EXPECT_EQ(gpu::first_sample_of(0xffff'ffff, 1), 0xffff'ffffu);
+    EXPECT_THROW((void)gpu::first_sample_of(std::uint64_t{1} << 62, 4), std::invalid_argument);
 }
 
 RC_GTEST_PROP(BatchRenderer, DeterministicBitsDependOnNothingButTheSamples, ())

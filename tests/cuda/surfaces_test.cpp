@@ -212,6 +212,28 @@ TEST(Surfaces, ThatAreNotFiniteAreRejectedByTheirNumber)
     EXPECT_EQ(complaint({{fine}, {{Vec3(0), 0}}}), "none");
 }
 
+// Refused before a byte of them is read: the numbers of primitives have 32 bits.
+TEST(Surfaces, ThatAreTooManyAreRefused)
+{
+    gpu::HostMemory memory;
+    gpu::SerialExecutor serial;
+    const Triangle triangle{{Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)}};
+    const Sphere sphere{Vec3(0), 1};
+    const auto refusal = [&](std::size_t triangles, std::size_t spheres) -> std::string {
+        try {
+            const SurfaceTree tree(memory, serial, {&triangle, triangles}, {&sphere, spheres});
+        } catch (const std::invalid_argument& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(refusal(1, 1), "");
+    const std::string most = "a tree may have 536870912 primitives, not ";
+    EXPECT_EQ(refusal((std::size_t{1} << 32) + 1, 0), most + "4294967297 triangles and 0 spheres");
+    EXPECT_EQ(refusal(1, gpu::most_primitives), most + "1 triangles and 536870912 spheres");
+    EXPECT_EQ(refusal(1, std::size_t{1} << 32), most + "1 triangles and 4294967296 spheres");
+}
+
 TEST(SceneGeometry, FarFromTheOriginLosesNothingIfTheOriginIsNear)
 {
     Random random(1);

@@ -136,10 +136,10 @@ NextStep first_of_light(const Setting& setting, const gpu::SampledEmission& emis
         step.slack = end_slack(world, step.origin);
         const auto& light = world.scene.spot_lights[emitter.index];
         const double cosine = glm::dot(light.direction, drawn.ray.direction);
-        const double error = direction_error + cosine_error;
+        const double error = drawn_spot_cosine_error;
         if (cosine - light.cos_cutoff <= error || (light.exponent > 0 && std::abs(cosine) <= 20 * error))
             throw Undecided("the rim of a spot");
-        step.alpha_error += (light.exponent + 2) * error / std::abs(light.exponent > 0 ? cosine : 1.0);
+        step.alpha_error += spot_falloff_error(light.exponent, std::abs(cosine), error);
         break;
     }
     case ref::EmitterKind::directional:
