@@ -1,8 +1,11 @@
 #include "cli/fast_render.h"
 
+#include "cli/scene_input.h"
+#include "cuda/transport/float_notices.h"
 #include "cuda/transport/renderer.h"
 
 #include <algorithm>
+#include <iostream>
 #include <map>
 #include <stdexcept>
 
@@ -50,6 +53,9 @@ std::unique_ptr<gpu::Renderer> fast_renderer(const RenderCommand& options, const
     plan.deterministic = options.deterministic;
     if (wants_layers(options))
         plan.layers = options.unweighted ? gpu::Layers::unweighted : gpu::Layers::weighted;
+    if (!options.quiet)
+        for (const std::string& notice : gpu::float_notices(scene))
+            std::cerr << shown_name(options.scene) << ": " << notice << '\n';
     if (options.device == "host")
         return gpu::host_renderer(scene, size.width, size.height, plan, options.threads);
     try {

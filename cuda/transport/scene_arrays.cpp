@@ -202,18 +202,26 @@ void add_emitters(SceneArrays& arrays, const scenes::Scene& scene, double radius
 
 } // namespace
 
-SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
+Placement placement_of(const scenes::Scene& scene)
 {
-    SceneArrays arrays;
-    double radius = 0;
+    Placement place;
     if (const auto box = scenes::bounds(scene)) {
-        arrays.place.origin = box->min / 2.0 + box->max / 2.0;
+        place.origin = box->min / 2.0 + box->max / 2.0;
         const double diameter = glm::length(box->max - box->min);
         int exponent = 1;
         if (diameter > 0.0) std::frexp(diameter, &exponent); // diameter = f 2^exponent, 1/2 <= f < 1
-        arrays.place.scale = std::ldexp(1.0, 1 - exponent);
-        radius = diameter * arrays.place.scale / 2.0;
+        place.scale = std::ldexp(1.0, 1 - exponent);
     }
+    return place;
+}
+
+SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
+{
+    SceneArrays arrays;
+    arrays.place = placement_of(scene);
+    double radius = 0;
+    if (const auto box = scenes::bounds(scene))
+        radius = glm::length(box->max - box->min) * arrays.place.scale / 2.0;
     arrays.radius = radius > 0.0 ? static_cast<float>(radius) : 1.0f; // around nothing, any will do
     arrays.diagonal = static_cast<float>(2.0 * radius);
     arrays.triangles = triangles_of(scene, arrays.place);

@@ -10,11 +10,13 @@
 
 namespace gpu {
 
+/// Brings the centre of the scene to the origin, and its diameter to a number from 1 to 2, by a power of
+/// two: lengths that could be too large or too small for floats to square are not, and scaling a scene
+/// by a power of two changes no bit. Radiance is the same at any scale.
+Placement placement_of(const scenes::Scene& scene);
+
 struct SceneArrays {
-    /// The centre of the scene becomes the origin, and its diameter a number from 1 to 2, by a power of
-    /// two: lengths that could be too large or too small for floats to square are not, and scaling a
-    /// scene by a power of two changes no bit. Radiance is the same at any scale.
-    Placement place;
+    Placement place; // placement_of the scene
     std::vector<Triangle> triangles;
     std::vector<Sphere> spheres;
     std::vector<Surface> surfaces; // by primitive, numbered as by scenes::primitive_count

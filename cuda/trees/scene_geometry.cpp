@@ -10,8 +10,6 @@
 
 namespace gpu {
 
-namespace {
-
 bool has_area_in_double(const scenes::Triangle& triangle)
 {
     const auto& v = triangle.vertices;
@@ -32,6 +30,8 @@ bool has_area_in_double(const scenes::Triangle& triangle)
     // NaN is left to those who reject it.
     return !(glm::dot(across, across) <= rounding * rounding * longest2);
 }
+
+namespace {
 
 /// In double, where differences and products of floats are exact unless they are of very different size;
 /// and rounding does not make equal products differ. Not to be inlined: GCC 12.2 drops the rounding of a

@@ -20,6 +20,9 @@ struct Placement {
 
 // Coordinates beyond the range of floats become infinite, and a build will reject them.
 
+/// Whether the triangle has area in the scene itself, see has_area.
+bool has_area_in_double(const scenes::Triangle& triangle);
+
 /// Whether the triangle can be hit on the fast path: it has area in the scene, and as floats.
 ///
 /// In the scene: its height over its longest edge is more than its coordinates' own rounding, 2^-48 of

@@ -1,0 +1,104 @@
+// What lies closer together than 2^-20 of the scene, on the fast path: its clearance follows from what a
+// ray leaves, and not from the size of the scene. Against the reference, from the same random numbers.
+
+#include "cuda/transport/renderer.h"
+#include "ref/transport/bdpt.h"
+#include "ref/transport/path_tracer.h"
+#include "tests/cuda/batch_means.h"
+#include "tests/transport/scene_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using scenes::Rgb;
+using scenes::Vec3;
+
+void add_quad(scenes::Scene& scene, const Vec3& p, const Vec3& a, const Vec3& b, std::uint32_t material)
+{
+    scene.triangles.push_back({{p, p + a, p + a + b}, material});
+    scene.triangles.push_back({{p, p + a + b, p + b}, material});
+}
+
+/// The unit cube as an affine map: p + [0, 1] a + [0, 1] b + [0, 1] c, facing outwards if a, b, c are
+/// right-handed.
+void add_box(scenes::Scene& scene, const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c,
+             std::uint32_t material)
+{
+    add_quad(scene, p, b, a, material);
+    add_quad(scene, p + c, a, b, material);
+    add_quad(scene, p, c, b, material);
+    add_quad(scene, p + a, b, c, material);
+    add_quad(scene, p, a, c, material);
+    add_quad(scene, p + b, c, a, material);
+}
+
+/// A matte room with a lamp under its ceiling, and over its floor a pane of glass, turned so that no
+/// coordinate is exact.
+scenes::Scene room_with_pane(double thickness)
+{
+    scenes::Scene scene;
+    scene.name = "pane";
+    scene.materials = {scenes::Lambertian{Rgb(0.6, 0.54, 0.48)}, scenes::Emission{Rgb(5.0, 4.0, 3.0)},
+                       scenes::Glass{Rgb(0.9), Rgb(0.9), 1.5}};
+    scene.material_names = {"wall", "lamp", "pane"};
+    const Vec3 x(0.8, 0.48, 0.36);
+    const Vec3 y(-0.6, 0.64, 0.48);
+    const Vec3 z(0.0, -0.6, 0.8);
+    const auto at = [&](double a, double b, double c) { return a * x + b * y + c * z; };
+    // Facing inwards: left-handed.
+    add_box(scene, at(-1, -1, -1), 2.0 * y, 2.0 * x, 2.0 * z, 0);
+    add_quad(scene, at(-0.4, 0.4, 0.9), 0.8 * x, -0.8 * y, 1);
+    add_box(scene, at(-0.9, -0.9, -0.95), 1.8 * x, 1.8 * y, thickness * z, 2);
+    scene.camera = scenes::Camera{at(0, -0.9, 0),                x, z, -y, // looks along y
+                                  scenes::FovAxis::horizontal, 1.2};
+    return scene;
+}
+
+/// The same paths by both wings, but for a sample in 2^14 that goes another way in floats, which changes
+/// the mean by about as much. 7 standard errors are passed by chance once in 10^7 times.
+void expect_same(const cuda_test::Means& floats, const cuda_test::Means& doubles, const char* what)
+{
+    cuda_test::Means differences;
+    for (std::size_t i = 0; i < floats.size(); ++i) differences.push_back(floats[i] - doubles[i]);
+    EXPECT_LT(std::abs(cuda_test::average(differences)),
+              7 * cuda_test::error_of(differences) + 1e-4 * cuda_test::average(doubles))
+        << what << ": " << cuda_test::average(floats) << ", " << cuda_test::average(doubles);
+    // Else it would say little.
+    EXPECT_LT(7 * cuda_test::error_of(differences), 0.01 * cuda_test::average(doubles)) << what;
+}
+
+void expect_as_by_the_reference(const scenes::Scene& scene, int max_edges)
+{
+    constexpr cuda_test::Samples samples{16, 32, 4};
+    expect_same(means_by_host(scene, gpu::Integrator::path, max_edges, 1, samples),
+                means_by_ref(scene, ref::trace_path, max_edges, 1, samples), "path");
+    expect_same(means_by_host(scene, gpu::Integrator::bdpt, max_edges, 1, samples),
+                means_by_ref(scene, ref::trace_bidirectionally, max_edges, 1, samples), "bdpt");
+}
+
+// The clearance was 16 u times the diagonal, 3.3e-6 here: the ray that had entered began beyond the pane.
+TEST(ThinThings, APaneOfGlassIsSeenThrough)
+{
+    for (const double thickness : {3e-5, 3e-6}) {
+        SCOPED_TRACE(thickness);
+        expect_as_by_the_reference(room_with_pane(thickness), 8);
+    }
+}
+
+// The same, around a lamp in glass: what is far away does not move refracted rays off their lines.
+TEST(ThinThings, AWideGroundDoesNotChangeWhatGlassRefracts)
+{
+    for (const double wider : {1.0, 1e2, 1e3}) {
+        SCOPED_TRACE(wider);
+        scenes::Scene scene = tests::our_scene("light_in_glass");
+        for (scenes::Triangle& triangle : scene.triangles)
+            if (std::holds_alternative<scenes::Lambertian>(scene.materials[triangle.material]))
+                for (Vec3& v : triangle.vertices) v = {wider * v.x, wider * v.y, v.z};
+        expect_as_by_the_reference(scene, 6);
+    }
+}
+
+} // namespace
