@@ -25,7 +25,7 @@ OddBuilder::OddBuilder(std::uint32_t seed) : random_(seed)
         origin_ = 4 * size_ * Vec3{any(-1, 1), any(-1, 1), any(-1, 1)};
     }
     if (!exact_ && chance(0.1)) {
-        size_ = any_size(1e-5, 1e5);
+        size_ = any_size(1e-30, 1e30); // products of densities then leave the range of doubles
         origin_ = any_size(1, 1e4) * size_ * any_direction();
         say("unit of length", size_);
         say("distance from the origin", glm::length(origin_));

@@ -46,13 +46,14 @@ bool add_walls_of_light(OddBuilder& builder, const Rgb& sky)
 }
 
 /// What the radiance of the picture is, in units of that of the sky.
-double add_eye(OddBuilder& builder, const Vec3& cell, const Vec3& towards, const Matter& matter,
+double add_eye(OddBuilder& builder, const Vec3& cell, const Vec3& towards, Matter& matter,
                bool& light_sees)
 {
     const double fov = builder.chance(0.2) ? builder.any_size(1e-4, 3.1) : builder.any(0.3, 2);
     if (fov < 0.1 || fov > 2) {
         builder.say("field of view", fov);
         light_sees = false;
+        matter.cusps = false; // the picture could be of nothing else
     }
     const double roll = builder.exact() ? 0 : builder.any(0, 6);
     const Vec3 along =
@@ -81,7 +82,7 @@ OddScene odd_furnace(std::uint32_t seed, bool sky)
     OddBuilder builder(seed);
     OddScene odd;
     const Rgb radiance = builder.any_colour(0.5, 2);
-    const Matter matter = add_matter(builder, true, builder.chance(0.6));
+    Matter matter = add_matter(builder, true, builder.chance(0.6));
     if (sky)
         builder.set_sky(radiance);
     else if (add_walls_of_light(builder, radiance))

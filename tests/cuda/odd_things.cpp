@@ -51,6 +51,7 @@ bool add_stack(OddBuilder& builder, const Vec3& c, double r, const Matter& matte
 
 bool add_ball_on_block(OddBuilder& builder, const Vec3& c, double r, const Matter& matter)
 {
+    if (!matter.cusps) return add_stack(builder, c, r, matter);
     builder.say("ball that touches a block");
     builder.add_box(c - 0.5 * r, c + r * Vec3(0.5, 0.5, 0), matter.matte, true);
     builder.add_sphere(c + Vec3(0, 0, 0.25 * r), 0.25 * r, matter.other);

@@ -21,6 +21,7 @@ inline constexpr double strongest_lamp = 1e12;
 struct Matter {
     std::uint32_t matte, other, mirror, black;
     bool specular;
+    bool cusps = true; // whether bodies may touch in a point: walks between white ones are very long
 };
 
 Matter add_matter(OddBuilder& builder, bool white, bool specular);
