@@ -133,7 +133,7 @@ void LitPlane::add_narrow_spot()
     // The picture is at least 2 span |at - eye| wide there; the spot's width is that of its angle on a
     // slanting plane.
     const double widest = 0.5 * eye_.span * glm::length(at - eye_.from) / glm::length(at - p) * -axis.z;
-    const double angle = builder_.any_size(1e-3, 0.9) * widest;
+    const double angle = std::max(narrowest_spot, builder_.any_size(1e-3, 0.9) * widest);
     const double exponent = builder_.chance(0.5) ? 0 : builder_.any(0, 9);
     const double cutoff = std::cos(angle);
     builder_.say("narrow spot light of half angle", angle);

@@ -23,6 +23,9 @@ struct PlaneEye {
 /// Irradiance at a point of the plane z = 0, in coordinates of the frame.
 using Irradiance = std::function<scenes::Rgb(const scenes::Vec3&)>;
 
+/// Half the full angle of the narrowest spot light: the fast path rejects any below 1.53e-5.
+inline constexpr double narrowest_spot = 2e-5;
+
 /// Collects lights and what they do.
 class LitPlane {
 public:
