@@ -8,7 +8,7 @@
 //
 // A comparison is a t test on the means of whole pictures over 32 independent batches. The bound of 7
 // standard errors with 31 degrees of freedom is passed by chance in 10^7 times once, if the means of
-// batches are distributed normally; a batch is 256 samples. A scene is compared 11 times at most: 20,000
+// batches are distributed normally; a batch is 256 samples. A scene is compared 9 times at most: 20,000
 // scenes fail by chance with a probability of 2%.
 //
 // Light that was never found is not in a standard error either. That of path tracing and bidirectional
