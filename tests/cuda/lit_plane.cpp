@@ -141,6 +141,8 @@ void LitPlane::add_narrow_spot()
     builder_.add_spot_light(p, axis, intensity, cutoff, exponent);
     irradiance_ += intensity * mean_of_narrow_spot(eye_, p, axis, cutoff, exponent);
     narrow_ = true;
+    // Directions err by at most sqrt(3) unit roundoffs: the cone's width by as much at both ends.
+    spot_tolerance_ = 4 * 0x1p-24 / angle;
 }
 
 void LitPlane::add_sun()

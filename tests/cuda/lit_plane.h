@@ -47,6 +47,8 @@ public:
     /// How much larger than a unit roundoff the relative errors are that lengths in units of the frame,
     /// and angles, make in what the lights do: 1 / length and 1 / cosine.
     [[nodiscard]] double condition() const { return condition_; }
+    /// What single precision may change in the power of a narrow spot light, relative to it.
+    [[nodiscard]] double spot_tolerance() const { return spot_tolerance_; }
 
 private:
     void light(const Irradiance& irradiance);
@@ -58,6 +60,7 @@ private:
     scenes::Rgb irradiance_{0};
     bool narrow_ = false, far_or_low_ = false;
     double condition_ = 10;
+    double spot_tolerance_ = 0;
     scenes::Rgb under_sky_{0}; // mean over the film of the irradiance that a lamp hides, per radiance
 };
 

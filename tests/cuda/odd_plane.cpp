@@ -147,7 +147,7 @@ OddScene odd_plane(std::uint32_t seed)
         const Vec3 corner = builder.place(half * Vec3(i % 2 * 2 - 1, i / 2 * 2 - 1, 0)) / builder.size();
         for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(corner[axis]));
     }
-    odd.float_tolerance += 16 * 0x1p-24 * lit.condition() * largest;
+    odd.float_tolerance += 16 * 0x1p-24 * lit.condition() * largest + lit.spot_tolerance();
     const Rgb albedo = std::get<scenes::Lambertian>(builder.full().materials[matter.matte]).albedo;
     const Rgb radiance = albedo / pi * lit.irradiance();
     odd.scene = builder.full();
