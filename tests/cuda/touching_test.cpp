@@ -9,12 +9,11 @@
 // A comparison of two integrators is a t test on the means of whole pictures over independent batches.
 // The bound of 7 standard errors with 31 degrees of freedom is passed by chance once in 10^7 times.
 
+#include "tests/cuda/batch_means.h"
 #include "tests/cuda/touching_scenes.h"
 
-#include "cuda/transport/renderer.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
-#include "ref/transport/render.h"
 
 #include <gtest/gtest.h>
 
@@ -26,63 +25,21 @@ namespace {
 
 using cuda_test::Touching;
 
-constexpr int size = 16;
-constexpr std::uint64_t batches = 32;
-constexpr std::uint32_t batch_size = 4;
+using cuda_test::average;
+using cuda_test::error_of;
+using cuda_test::Means;
+
+constexpr cuda_test::Samples samples{.size = 16, .batches = 32, .batch_size = 4};
 constexpr double bound = 7;
-
-/// The mean of the whole picture, all channels together, batch by batch.
-using Means = std::vector<double>;
-
-double mean_of(const golden::Image& image)
-{
-    double sum = 0;
-    for (const auto& pixel : image.pixels) sum += pixel.x + pixel.y + pixel.z;
-    return sum / (3.0 * static_cast<double>(image.pixels.size()));
-}
 
 Means by_ref(const scenes::Scene& scene, ref::Integrator integrator, int max_edges, std::uint64_t seed)
 {
-    const ref::World world(scene, size, size);
-    const ref::RenderOptions options{{.seed = seed, .max_edges = max_edges}, batches, batch_size, 1};
-    Means means;
-    for (std::uint64_t i = 0; i < batches; ++i)
-        means.push_back(mean_of(*ref::render_batch(world, integrator, options, i)));
-    return means;
+    return cuda_test::means_by_ref(scene, integrator, max_edges, seed, samples);
 }
 
 Means by_host(const scenes::Scene& scene, gpu::Integrator integrator, int max_edges, std::uint64_t seed)
 {
-    gpu::RenderOptions options;
-    options.integrator = integrator;
-    options.max_edges = max_edges;
-    options.seed = seed;
-    options.batch_size = batch_size;
-    const auto renderer = gpu::host_renderer(scene, size, size, options, 1);
-    Means means;
-    for (std::uint64_t i = 0; i < batches; ++i) {
-        const gpu::Batch batch = *renderer->render_batch(i, {});
-        EXPECT_EQ(batch.dropped.count, 0u);
-        means.push_back(mean_of(batch.mean));
-    }
-    return means;
-}
-
-double average(const Means& means)
-{
-    double sum = 0;
-    for (const double m : means) sum += m;
-    return sum / static_cast<double>(means.size());
-}
-
-/// Standard error of the average.
-double error_of(const Means& means)
-{
-    const double middle = average(means);
-    double squares = 0;
-    for (const double m : means) squares += (m - middle) * (m - middle);
-    const auto count = static_cast<double>(means.size());
-    return std::sqrt(squares / (count * (count - 1)));
+    return cuda_test::means_by_host(scene, integrator, max_edges, seed, samples);
 }
 
 void expect_agree(const Means& a, const Means& b, const char* what)
