@@ -86,6 +86,9 @@ Finding Judge::judge(const std::vector<Row>& rows, std::size_t functional, std::
     } else {
         compare_means(finding, mean_estimate(candidate), reference,
                       std::abs(candidate.skewness) / std::sqrt(candidate.count));
+        if (may_lack_rare_events(candidate, reference, *std::max_element(theirs.begin(), theirs.end()),
+                                 options_.convict))
+            finding.conclusive = false;
     }
     if (candidate.count >= 2.0 && reference.count >= 2.0)
         finish(finding, mean_estimate(candidate), mean_estimate(reference));

@@ -56,6 +56,18 @@ double welch_degrees(const MeanEstimate& a, const MeanEstimate& b);
 /// or 0.
 TestResult welch(const MeanEstimate& a, const MeanEstimate& b, double tolerance = 0.0);
 
+/// Whether `candidate`, of values >= 0, may be darker than `reference` only because none of its batches
+/// has an event that is rare for it: neither its variance nor its skewness then shows that there are
+/// such events. It may, if both hold:
+/// - its standard deviation is less than a tenth of the reference's, which has seen the events;
+/// - events so rare that all of its B batches lack them with a probability of `level`, (1 - q)^B =
+/// level,
+///   can bring what is missing: each has to bring missing / q, and that is at most four times what the
+///   `largest` value of the reference is above its mean.
+/// So light that is missing for good where the reference has little noise is not taken for bad luck.
+bool may_lack_rare_events(const Moments& candidate, const Moments& reference, double largest,
+                          double level);
+
 struct Interval {
     double low = 0.0;
     double high = 0.0;

@@ -67,7 +67,8 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
         ++primitive;
     }
     std::vector<std::string> notices;
-    collapsed.say(notices, scene, "collapse to a line or a point in single precision: no ray meets them");
+    collapsed.say(notices, scene,
+                  "collapse to a line or a point in single precision: no ray meets them");
     small.say(notices, scene,
               "are so small for their distance from the centre of the scene that single precision "
               "cannot leave them safely: light to and from them may be wrong");

@@ -42,9 +42,10 @@ TEST(FloatNotices, NameWhatCollapses)
     scene.triangles.push_back(speck(1e-9));
     scene.triangles.push_back(speck(1e-9));
     ASSERT_EQ(gpu::float_notices(scene).size(), 1u);
-    EXPECT_EQ(gpu::float_notices(scene)[0],
-              "2 surface(s), first triangle 3 (material \"dust\"), collapse to a line or a point in single "
-              "precision: no ray meets them");
+    EXPECT_EQ(
+        gpu::float_notices(scene)[0],
+        "2 surface(s), first triangle 3 (material \"dust\"), collapse to a line or a point in single "
+        "precision: no ray meets them");
 }
 
 TEST(FloatNotices, NameWhatIsTooSmallToLeave)

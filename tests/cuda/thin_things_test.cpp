@@ -52,8 +52,12 @@ scenes::Scene room_with_pane(double thickness)
     add_box(scene, at(-1, -1, -1), 2.0 * y, 2.0 * x, 2.0 * z, 0);
     add_quad(scene, at(-0.4, 0.4, 0.9), 0.8 * x, -0.8 * y, 1);
     add_box(scene, at(-0.9, -0.9, -0.95), 1.8 * x, 1.8 * y, thickness * z, 2);
-    scene.camera = scenes::Camera{at(0, -0.9, 0),                x, z, -y, // looks along y
-                                  scenes::FovAxis::horizontal, 1.2};
+    scene.camera = scenes::Camera{at(0, -0.9, 0),
+                                  x,
+                                  z,
+                                  -y, // looks along y
+                                  scenes::FovAxis::horizontal,
+                                  1.2};
     return scene;
 }
 
@@ -79,7 +83,8 @@ void expect_as_by_the_reference(const scenes::Scene& scene, int max_edges)
                 means_by_ref(scene, ref::trace_bidirectionally, max_edges, 1, samples), "bdpt");
 }
 
-// The clearance was 16 u times the diagonal, 3.3e-6 here: the ray that had entered began beyond the pane.
+// The clearance was 16 u times the diagonal, 3.3e-6 here: the ray that had entered began beyond the
+// pane.
 TEST(ThinThings, APaneOfGlassIsSeenThrough)
 {
     for (const double thickness : {3e-5, 3e-6}) {

@@ -83,6 +83,43 @@ TEST(Moments, OfNothingOneValueOrEqualValuesAreFinite)
     EXPECT_EQ(golden::moments(Values{0.0, 1e-200}).skewness, 0.0);
 }
 
+// A golden of 224 batches, of which one in three brings 3 and the others nothing: noisy, and hardly
+// skewed. For another estimator of the same mean events are ten times as rare and as large: 32 batches
+// may well have none.
+TEST(RareEvents, MayBeWhatADarkSampleLacks)
+{
+    Values golden_batches;
+    for (int i = 0; i < 224; ++i) golden_batches.push_back(i % 3 == 0 ? 3.0 : 0.0);
+    const golden::Moments golden = golden::moments(golden_batches);
+    Values batches(32, 0.001);
+    const auto lacks = [&] { return may_lack_rare_events(golden::moments(batches), golden, 3.0, 1e-8); };
+    EXPECT_TRUE(lacks());
+    batches[5] = 30.0; // there is one: variance and skewness show it
+    EXPECT_FALSE(lacks());
+    batches.assign(32, 2.0); // too bright
+    EXPECT_FALSE(lacks());
+    batches.assign(2000, 0.001); // so many batches would have had some
+    EXPECT_FALSE(lacks());
+}
+
+// Of a smooth region, with 5% of noise from batch to batch, nothing can be so rare and so large.
+TEST(RareEvents, AreNotWhatABlackTileLacks)
+{
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(1.0, 0.05);
+    Values golden_batches(224);
+    for (double& value : golden_batches) value = noise(random);
+    const golden::Moments golden = golden::moments(golden_batches);
+    const double largest = *std::max_element(golden_batches.begin(), golden_batches.end());
+    for (const double level : {0.0, 0.5}) {
+        const Values batches(32, level);
+        EXPECT_FALSE(may_lack_rare_events(golden::moments(batches), golden, largest, 1e-8)) << level;
+    }
+    Values darker(32); // by 20%, as noisy
+    for (double& value : darker) value = 0.8 * noise(random);
+    EXPECT_FALSE(may_lack_rare_events(golden::moments(darker), golden, largest, 1e-8));
+}
+
 TEST(MannWhitney, CompleteSeparationIsOneArrangementOfAll)
 {
     const auto [a, b] = samples_with_u(5, 5, 25);
