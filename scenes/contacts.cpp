@@ -106,7 +106,7 @@ Triangle in_units_of(int exponent, Triangle triangle)
 
 /// `a_in_file` and `b_in_file` are brought to about 1 first: an area is a product of two lengths, and
 /// its square, of four.
-bool coincide(const Triangle& a_in_file, const Triangle& b_in_file, double on)
+bool coincide(const Triangle& a_in_file, const Triangle& b_in_file, double on, double at_least)
 {
     int exponent = 0;
     std::frexp(std::max(largest_coordinate(a_in_file), largest_coordinate(b_in_file)), &exponent);
@@ -116,7 +116,8 @@ bool coincide(const Triangle& a_in_file, const Triangle& b_in_file, double on)
     const auto other = normal_of(b);
     // Planes at an angle cross in a band that is too narrow to matter.
     if (!normal || !other || glm::length(glm::cross(*normal, *other)) > 0.01) return false;
-    const double tolerance = on * std::max(largest_coordinate(a), largest_coordinate(b));
+    const double tolerance = std::max(on * std::max(largest_coordinate(a), largest_coordinate(b)),
+                                      std::ldexp(at_least, -exponent));
     Polygon overlap(b.vertices.begin(), b.vertices.end());
     for (std::size_t i = 0; i < 3 && overlap.size() >= 3; ++i) {
         const Vec3 edge = a.vertices[(i + 1) % 3] - a.vertices[i];
@@ -129,26 +130,27 @@ bool coincide(const Triangle& a_in_file, const Triangle& b_in_file, double on)
     });
 }
 
-bool coincide(const Sphere& a, const Sphere& b, double on)
+bool coincide(const Sphere& a, const Sphere& b, double on, double at_least)
 {
     const double largest =
         std::max({largest_component(a.center), largest_component(b.center), a.radius});
-    return largest_component(a.center - b.center) <= on * largest &&
-           std::abs(a.radius - b.radius) <= on * largest;
+    const double tolerance = std::max(on * largest, at_least);
+    return largest_component(a.center - b.center) <= tolerance &&
+           std::abs(a.radius - b.radius) <= tolerance;
 }
 
 /// Boxes of all primitives, grown by the tolerance.
-std::vector<Bounds> grown_boxes(const Scene& scene, double on)
+std::vector<Bounds> grown_boxes(const Scene& scene, double on, double at_least)
 {
     std::vector<Bounds> boxes;
     for (const Triangle& t : scene.triangles) {
         const auto& v = t.vertices;
-        const Vec3 more(on * largest_coordinate(t));
+        const Vec3 more(std::max(on * largest_coordinate(t), at_least));
         boxes.push_back(
             {glm::min(glm::min(v[0], v[1]), v[2]) - more, glm::max(glm::max(v[0], v[1]), v[2]) + more});
     }
     for (const Sphere& s : scene.spheres) {
-        const Vec3 reach(s.radius + on * (largest_component(s.center) + s.radius));
+        const Vec3 reach(s.radius + std::max(on * (largest_component(s.center) + s.radius), at_least));
         boxes.push_back({s.center - reach, s.center + reach});
     }
     return boxes;
@@ -206,19 +208,21 @@ Coincidences::Coincidences(std::vector<std::pair<std::uint32_t, std::uint32_t>> 
     for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
 }
 
-Coincidences coincidences(const Scene& scene, double on, bool* complete)
+Coincidences coincidences(const Scene& scene, double on, bool* complete, double at_least)
 {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
     const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
-    const bool all = for_each_overlap(grown_boxes(scene, on), [&](std::uint32_t a, std::uint32_t b) {
-        if ((a < triangles) != (b < triangles)) return; // a plane and a sphere share no area
-        const bool same = a < triangles
-                              ? coincide(scene.triangles[a], scene.triangles[b], on)
-                              : coincide(scene.spheres[a - triangles], scene.spheres[b - triangles], on);
-        if (!same) return;
-        pairs.emplace_back(a, b);
-        pairs.emplace_back(b, a);
-    });
+    const bool all =
+        for_each_overlap(grown_boxes(scene, on, at_least), [&](std::uint32_t a, std::uint32_t b) {
+            if ((a < triangles) != (b < triangles)) return; // a plane and a sphere share no area
+            const bool same =
+                a < triangles
+                    ? coincide(scene.triangles[a], scene.triangles[b], on, at_least)
+                    : coincide(scene.spheres[a - triangles], scene.spheres[b - triangles], on, at_least);
+            if (!same) return;
+            pairs.emplace_back(a, b);
+            pairs.emplace_back(b, a);
+        });
     if (complete != nullptr) *complete = all;
     return {std::move(pairs), primitive_count(scene)};
 }

@@ -66,10 +66,12 @@ private:
 };
 
 /// Coincident are two triangles that overlap in an area while their planes differ there by no more than
-/// `on` times the largest coordinate of both; and two spheres whose centres and radii differ by no more.
-/// Edges that meet do not count, nor do surfaces that cross. Where more than 4096 boxes overlap in one
-/// place the pairs among them are not looked for, and `complete`, if given, is set to false.
-Coincidences coincidences(const Scene& scene, double on = double_rounding, bool* complete = nullptr);
+/// `on` times the largest coordinate of both, or by `at_least` if that is more; and two spheres whose
+/// centres and radii differ by no more. Edges that meet do not count, nor do surfaces that cross. Where
+/// more than 4096 boxes overlap in one place the pairs among them are not looked for, and `complete`, if
+/// given, is set to false.
+Coincidences coincidences(const Scene& scene, double on = double_rounding, bool* complete = nullptr,
+                          double at_least = 0);
 
 /// Which of several coincident surfaces a ray sees, see above: that of the lowest rank, and of these the
 /// lowest number. `from_front`: the ray comes from the side of the surface's normal.

@@ -18,12 +18,12 @@ namespace gpu {
 /// joined, so one cosine and a constant are all there is to their BSDF.
 struct alignas(16) LightVertex {
     Vec3 position;
-    float clearance;
-    Vec3 facing;   // unit normal on the side that the walk came from
-    float onward;  // the walk's density per solid angle over the cosine, with the chance of going on
-    Rgb alpha;     // BSDF included; black where the vertex can be joined to nothing
-    float own;     // density of the walk at the vertex, per area
-    float sums[4]; // RunningSums::without_last_factor for t = 2, 3, 4 and all above
+    float clearance; // negative where another surface is near, see visible()
+    Vec3 facing;     // unit normal on the side that the walk came from
+    float onward;    // the walk's density per solid angle over the cosine, with the chance of going on
+    Rgb alpha;       // BSDF included; black where the vertex can be joined to nothing
+    float own;       // density of the walk at the vertex, per area
+    float sums[4];   // RunningSums::without_last_factor for t = 2, 3, 4 and all above
 };
 static_assert(sizeof(LightVertex) == 64);
 
@@ -53,6 +53,21 @@ template <Needs needs>
 HD bool visible(const SceneView<needs>& scene, const Vec3& from, const Vec3& to)
 {
     return !any_hit(scene.geometry, {from, 1.0f, to - from});
+}
+
+/// Whether the light vertex, and z on the side that its walk came from, see each other at this distance.
+template <Needs needs>
+HD bool visible(const SceneView<needs>& scene, const SurfacePoint& z, const Vec3& facing,
+                const LightVertex& y, float distance)
+{
+    const Vec3 from = z.position + z.clearance * facing;
+    if (y.clearance >= 0.0f)
+        return visible(scene, from,
+                       y.position + (y.clearance + clearance_per_length * distance) * y.facing);
+    // The end of a segment might lie beyond a surface that is near y; the beginning of a ray does not
+    // (clearance.h). So one goes from each to the middle.
+    const Vec3 middle = 0.5f * (z.position + y.position);
+    return visible(scene, from, middle) && visible(scene, y.position - y.clearance * y.facing, middle);
 }
 
 /// t = 1: y_{s-1}, at `point`, is joined to the pinhole. `alpha`: its weight with what it sends to the
@@ -144,9 +159,10 @@ HD int light_subpath(const SceneView<needs>& scene, const PathOptions& options, 
             };
             light_image<needs, integrator>(scene, options, s, y.point, y.facing, y.own,
                                            without_last_factor(1), alpha, sink);
+            const bool is_near = scene.surfaces[y.point.primitive].near_count > 0;
             if constexpr (integrator == Integrator::bdpt)
                 kept[y.n - 1] = {y.point.position,
-                                 y.point.clearance,
+                                 is_near ? -y.point.clearance : y.point.clearance,
                                  y.facing,
                                  chance_of(y.material, y.n) * inverse_pi,
                                  alpha,
@@ -219,9 +235,7 @@ HD void inner_connection(const SceneView<needs>& scene, const PathOptions& optio
     const float G = cosine_z * cosine_y * spread;
     const Rgb value = z.alpha * G * y.alpha;
     if (is_black(value)) return;
-    if (!visible(scene, z.point.position + z.point.clearance * z.facing,
-                 y.position + (y.clearance + clearance_per_length * distance2 * to_unit) * y.facing))
-        return;
+    if (!visible(scene, z.point, z.facing, y, distance2 * to_unit)) return;
     const int by_t = glm::min(z.t, 5) - 2;
     const int by_s = glm::min(s, 5) - 1;
     sink.add(s, z.t, value,

@@ -18,6 +18,11 @@ namespace {
 /// each is rounded once, and the distance of their planes by sqrt(3) times that.
 constexpr double float_rounding = 4 * unit_roundoff;
 
+/// The largest clearance of any surface, at the end of the longest segment, in units of the scene's
+/// diagonal: 18 u for the ray and what has been rounded (clearance_at), and clearance.h; for a sphere
+/// 30 u.
+constexpr double largest_clearance = 30 * unit_roundoff + clearance_per_length;
+
 /// The scene where the arrays have it, in double precision. Its materials and names are left out.
 scenes::Scene moved(const scenes::Scene& scene, const Placement& place)
 {
@@ -43,25 +48,80 @@ int side_of(const scenes::Triangle& a, const scenes::Triangle& b)
     return height < 0 ? -1 : height > 0 ? 1 : 0;
 }
 
+/// The same for any two primitives that coincide as floats.
+int side_of(const scenes::Scene& here, std::uint32_t a, std::uint32_t b)
+{
+    const auto triangles = static_cast<std::uint32_t>(here.triangles.size());
+    if (a < triangles) return side_of(here.triangles[a], here.triangles[b]);
+    return here.spheres[b - triangles].radius < here.spheres[a - triangles].radius ? -1 : 1;
+}
+
+/// On which side of the plane of `a` all corners of `b` are; 0 if they are not on one side.
+int side_of_all(const scenes::Triangle& a, const scenes::Triangle& b)
+{
+    const auto& v = a.vertices;
+    const scenes::Vec3 across = glm::cross(v[1] - v[0], v[2] - v[0]);
+    double low = 0;
+    double high = 0;
+    for (const scenes::Vec3& corner : b.vertices) {
+        const double height = glm::dot(across, corner - v[0]);
+        low = std::min(low, height);
+        high = std::max(high, height);
+    }
+    return low < 0 && high > 0 ? 0 : high > 0 ? 1 : low < 0 ? -1 : 0;
+}
+
+/// On which side of `a` the whole of `b` is that lies over it; 0 where they cross: then floats decide,
+/// which tell them apart almost everywhere.
+int side_if_apart(const scenes::Scene& here, std::uint32_t a, std::uint32_t b)
+{
+    if (a >= here.triangles.size()) return side_of(here, a, b);
+    const scenes::Triangle& ta = here.triangles[a];
+    const scenes::Triangle& tb = here.triangles[b];
+    if (const int side = side_of_all(ta, tb); side != 0) return side;
+    const auto across = [](const scenes::Triangle& t) {
+        return glm::cross(t.vertices[1] - t.vertices[0], t.vertices[2] - t.vertices[0]);
+    };
+    return glm::dot(across(ta), across(tb)) > 0 ? -side_of_all(tb, ta) : side_of_all(tb, ta);
+}
+
+float largest_extent(const Triangle& triangle)
+{
+    const auto& v = triangle.vertices;
+    return max_component(triangle_extent(v[1] - v[0], v[2] - v[0]));
+}
+
 void add_coincident(SceneArrays& arrays, const scenes::Scene& scene, const scenes::Scene& here)
 {
+    const scenes::Coincidences near =
+        scenes::coincidences(here, float_rounding, nullptr, largest_clearance * arrays.diagonal);
+    if (near.empty()) return;
     const scenes::Coincidences in_floats = scenes::coincidences(here, float_rounding);
-    if (in_floats.empty()) return;
     const scenes::Coincidences in_doubles = scenes::coincidences(scene);
-    const auto triangles = static_cast<std::uint32_t>(here.triangles.size());
     for (std::uint32_t i = 0; i < scenes::primitive_count(here); ++i) {
-        arrays.surfaces[i].first_coincident = static_cast<std::uint32_t>(arrays.coincident.size());
-        for (const std::uint32_t other : in_floats.of(i)) {
-            int side = 0;
-            if (!std::ranges::binary_search(in_doubles.of(i), other))
-                side = i < triangles ? side_of(here.triangles[i], here.triangles[other])
-                       : here.spheres[other - triangles].radius < here.spheres[i - triangles].radius ? -1
-                                                                                                     : 1;
-            arrays.coincident.push_back({other, side});
+        Surface& surface = arrays.surfaces[i];
+        surface.first_coincident = static_cast<std::uint32_t>(arrays.coincident.size());
+        const auto coincident = in_floats.of(i);
+        const bool is_triangle = i < here.triangles.size();
+        float largest = is_triangle ? largest_extent(arrays.triangles[i])
+                                    : 2 * arrays.spheres[i - here.triangles.size()].radius;
+        if (is_triangle)
+            for (const std::uint32_t other : coincident)
+                largest = std::max(largest, largest_extent(arrays.triangles[other]));
+        for (const std::uint32_t other : coincident) {
+            const bool known = !std::ranges::binary_search(in_doubles.of(i), other);
+            arrays.coincident.push_back({other, known ? side_of(here, i, other) : 0, largest});
+        }
+        surface.coincident_count = static_cast<std::uint32_t>(coincident.size());
+        for (const std::uint32_t other : near.of(i)) {
+            if (std::ranges::binary_search(coincident, other)) continue;
+            const int side = side_if_apart(here, i, other);
+            if (side == 0) continue;
+            arrays.coincident.push_back({other, side, largest});
+            ++surface.near_count;
         }
         if (arrays.coincident.size() > std::numeric_limits<std::uint32_t>::max())
             throw std::invalid_argument("more than 2^32 - 1 pairs of surfaces that coincide");
-        arrays.surfaces[i].coincident_count = static_cast<std::uint32_t>(in_floats.of(i).size());
     }
 }
 
@@ -86,8 +146,9 @@ double clearance_at(const SceneArrays& arrays, std::uint32_t primitive, const Ve
         return unit_roundoff * (rounded + root_3 * largest(sphere.center) + 50.0 * sphere.radius);
     }
     const auto& v = arrays.triangles[primitive].vertices;
-    const double extent = arrays.surfaces[primitive].coincident_count > 0
-                              ? static_cast<double>(arrays.diagonal)
+    const Surface& surface = arrays.surfaces[primitive];
+    const double extent = surface.coincident_count > 0
+                              ? arrays.coincident[surface.first_coincident].largest_size
                               : largest(triangle_extent(v[1] - v[0], v[2] - v[0]));
     const double farthest = std::max({largest(v[0]), largest(v[1]), largest(v[2])});
     return unit_roundoff * (rounded + root_3 * farthest + 8 * root_3 * extent);
@@ -146,9 +207,8 @@ std::vector<scenes::Vec3> dual_basis(const std::vector<Plane>& planes)
 /// were rounded.
 EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& scene, const scenes::Vec3& position)
 {
-    // The largest clearance of any triangle or sphere, at the end of the longest segment.
     const double D = arrays.diagonal;
-    const double near = (40 * unit_roundoff + clearance_per_length) * D;
+    const double near = largest_clearance * D;
     EndContacts contacts{};
     contacts.first_plane = static_cast<std::uint32_t>(arrays.contact_planes.size());
     contacts.first_triangle = static_cast<std::uint32_t>(arrays.contact_triangles.size());

@@ -86,15 +86,28 @@ HD Hit first_of_coincident(const SceneView<needs>& scene, const Ray& ray, const 
 }
 
 /// Whether a ray that comes from direction `towards` (unit length) sees the surface at `point`, and not
-/// one that coincides with it.
+/// one that coincides with it or lies so close over it that a segment to the point may end between them.
 template <Needs needs>
 HD bool sees_first(const SceneView<needs>& scene, const SurfacePoint& point, const Vec3& towards)
 {
-    if (scene.surfaces[point.primitive].coincident_count == 0) return true;
-    // From a diagonal away, so that t is not near 0.
-    const Ray ray{point.position + scene.diagonal * towards, std::numeric_limits<float>::infinity(),
-                  -towards};
-    return first_of_coincident(scene, ray, Hit{scene.diagonal, point.primitive, 0, 0}).primitive ==
+    const Surface& surface = scene.surfaces[point.primitive];
+    if (surface.coincident_count + surface.near_count == 0) return true;
+    // From away, so that t is not near 0; but no further than the surfaces are large.
+    const float away = scene.coincident[surface.first_coincident].largest_size;
+    const Ray ray{point.position + away * towards, std::numeric_limits<float>::infinity(), -towards};
+    const ShearedRay sheared(ray);
+    const int from = glm::dot(towards, point.normal) < 0.0f ? -1 : 1;
+    const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
+    for (std::uint32_t i = 0; i < surface.near_count; ++i) {
+        const Coincident& other =
+            scene.coincident[surface.first_coincident + surface.coincident_count + i];
+        Hit hit{};
+        if (other.side == from && (other.primitive >= triangles || // a sphere is met everywhere
+                                   intersect_triangle(sheared, scene.triangles[other.primitive],
+                                                      std::numeric_limits<float>::infinity(), hit)))
+            return false;
+    }
+    return first_of_coincident(scene, ray, Hit{away, point.primitive, 0, 0}).primitive ==
            point.primitive;
 }
 

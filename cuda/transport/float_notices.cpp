@@ -2,9 +2,15 @@
 
 #include "cuda/transport/scene_arrays.h"
 #include "cuda/trees/rounding.h"
+#include "scenes/bounds.h"
+#include "scenes/contacts.h"
 #include "scenes/largest_component.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace gpu {
@@ -41,6 +47,61 @@ bool is_too_small(double extent, double distance)
     return extent < 16 * unit_roundoff * distance;
 }
 
+/// The largest distance from a triangle at which rays begin that leave it (clearance.h), in the scene's
+/// own unit of length.
+double clearance_of(const scenes::Triangle& triangle, const scenes::Vec3& origin)
+{
+    const auto& v = triangle.vertices;
+    const scenes::Vec3 e1 = v[1] - v[0];
+    const scenes::Vec3 e2 = v[2] - v[0];
+    const scenes::Vec3 n = glm::abs(glm::normalize(glm::cross(e1, e2)));
+    const scenes::Vec3 extent =
+        glm::max(glm::max(v[0], v[1]), v[2]) - glm::min(glm::min(v[0], v[1]), v[2]);
+    const scenes::Vec3 position =
+        glm::max(glm::max(glm::abs(v[0] - origin), glm::abs(v[1] - origin)), glm::abs(v[2] - origin));
+    return unit_roundoff * glm::dot(n, 4.0 * glm::max(glm::abs(e1), glm::abs(e2)) + 2.0 * position +
+                                           2.0 * extent + 6.0 * scenes::largest_component(extent));
+}
+
+/// How far the middle of b is from the plane of a.
+double distance_between(const scenes::Triangle& a, const scenes::Triangle& b)
+{
+    const auto& v = a.vertices;
+    const scenes::Vec3 middle = (b.vertices[0] + b.vertices[1] + b.vertices[2]) / 3.0;
+    return std::abs(glm::dot(glm::normalize(glm::cross(v[1] - v[0], v[2] - v[0])), middle - v[0]));
+}
+
+/// Glass triangles from which rays begin beyond another triangle; but not those that coincide with one,
+/// for which there is a rule (scenes/contacts.h).
+void add_narrow_gaps(std::vector<std::string>& notices, const scenes::Scene& scene)
+{
+    const auto is_glass = [&](std::uint32_t primitive) {
+        return std::holds_alternative<scenes::Glass>(scene.materials[material_of(scene, primitive)]);
+    };
+    const auto box = scenes::bounds(scene);
+    if (!box) return;
+    const scenes::Vec3 origin = box->min / 2.0 + box->max / 2.0;
+    const double reach =
+        30 * unit_roundoff * glm::length(box->max - box->min); // more than any clearance
+    const scenes::Coincidences near =
+        scenes::coincidences(scene, scenes::double_rounding, nullptr, reach);
+    if (near.empty()) return;
+    const scenes::Coincidences touching = scenes::coincidences(scene);
+    Count gaps;
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+        if (!is_glass(i)) continue;
+        const scenes::Triangle& triangle = scene.triangles[i];
+        const bool too_close = std::ranges::any_of(near.of(i), [&](std::uint32_t other) {
+            return !std::ranges::binary_search(touching.of(i), other) &&
+                   distance_between(triangle, scene.triangles[other]) < clearance_of(triangle, origin);
+        });
+        if (too_close) gaps.add(i);
+    }
+    gaps.say(notices, scene,
+             "are of glass and closer to another surface than single precision can resolve: light that "
+             "passes between them is lost");
+}
+
 } // namespace
 
 std::vector<std::string> float_notices(const scenes::Scene& scene)
@@ -72,6 +133,7 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
     small.say(notices, scene,
               "are so small for their distance from the centre of the scene that single precision "
               "cannot leave them safely: light to and from them may be wrong");
+    add_narrow_gaps(notices, scene);
     return notices;
 }
 

@@ -230,7 +230,7 @@ SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
         arrays.materials.push_back(material_of(material, roulette));
     for (std::uint32_t i = 0; i < scenes::primitive_count(scene); ++i) {
         const std::uint32_t material = scenes::material_of(scene, i);
-        arrays.surfaces.push_back({material, no_emitter, 0, 0});
+        arrays.surfaces.push_back({material, no_emitter});
         if (arrays.materials[material].kind != MaterialKind::emission)
             arrays.largest_survival =
                 std::max(arrays.largest_survival, arrays.materials[material].survival);

@@ -52,14 +52,18 @@ struct Light {
 /// What shading must know of a primitive.
 struct Surface {
     std::uint32_t material;
-    std::uint32_t emitter;                            // or no_emitter
-    std::uint32_t first_coincident, coincident_count; // range of SceneView::coincident
+    std::uint32_t emitter; // or no_emitter
+    // Ranges of SceneView::coincident: surfaces that coincide with this one as far as floats can tell,
+    // and after them those so near that a segment which ends here may end beyond them.
+    std::uint32_t first_coincident = 0, coincident_count = 0, near_count = 0;
 };
 
-/// A surface that coincides with another one, as far as floats can tell.
+/// A surface that coincides with another one, or nearly does.
 struct Coincident {
     std::uint32_t primitive;
-    std::int32_t side; // of the other one, on which it lies: 1 that of the normal; 0: on it
+    std::int32_t side;  // of the other one, on which it lies: 1 that of the normal; 0: on it
+    float largest_size; // the diameter of a sphere, or the largest extent of all triangles that coincide
+                        // with the other one, and its own
 };
 
 template <Needs needs>

@@ -26,9 +26,11 @@ HD SurfacePoint triangle_point(const SceneView<needs>& scene, std::uint32_t tria
     point.primitive = triangle;
     point.position = v[0] + (b1 * e1 + b2 * e2);
     point.normal = unit_normal(e1, e2);
-    const bool coincides = scene.surfaces[triangle].coincident_count > 0;
-    point.clearance = triangle_clearance(point.position, point.normal, b1, e1, b2, e2,
-                                         coincides ? Vec3(scene.diagonal) : triangle_extent(e1, e2));
+    const Surface& surface = scene.surfaces[triangle];
+    const Vec3 extent = surface.coincident_count > 0
+                            ? Vec3(scene.coincident[surface.first_coincident].largest_size)
+                            : triangle_extent(e1, e2);
+    point.clearance = triangle_clearance(point.position, point.normal, b1, e1, b2, e2, extent);
     return point;
 }
 

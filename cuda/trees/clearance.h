@@ -30,8 +30,7 @@
 // 6. The rounding of s n itself and that of these bounds are of second order: u more in step 1, u a more
 // in
 //    step 3 and 5 u r more in step 5 are room for it.
-// 7. Surfaces that coincide with a triangle may be larger than it is: then a is the diagonal of the
-// scene.
+// 7. Surfaces that coincide with a triangle may be larger than it is: then a is the largest of theirs.
 //    A neighbour in the same plane needs no more than the triangle itself where they share an edge: near
 //    that edge the place of the neighbour's third vertex has no weight.
 //

@@ -64,4 +64,21 @@ TEST(FloatNotices, NameWhatIsTooSmallToLeave)
         << gpu::float_notices(scene)[0];
 }
 
+// A pane of glass over the ground, at a distance.
+TEST(FloatNotices, NameGlassTooCloseToAnotherSurface)
+{
+    const auto notices = [](double gap) {
+        scenes::Scene scene = ground();
+        scene.materials[1] = scenes::Glass{scenes::Rgb(1.0), scenes::Rgb(1.0), 1.5};
+        scene.triangles.push_back({{Vec3(0, -0.5, gap), Vec3(0.5, 0, gap), Vec3(0, 0, gap)}, 1});
+        return gpu::float_notices(scene);
+    };
+    EXPECT_TRUE(notices(0.0).empty()); // there is a rule
+    EXPECT_TRUE(notices(1e-5).empty());
+    ASSERT_EQ(notices(1e-7).size(), 1u);
+    EXPECT_TRUE(notices(1e-7)[0].starts_with(
+        "1 surface(s), first triangle 2 (material \"dust\"), are of glass and closer to another"))
+        << notices(1e-7)[0];
+}
+
 } // namespace

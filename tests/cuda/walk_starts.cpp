@@ -5,6 +5,9 @@
 #include "tests/cuda/sight.h"
 
 #include "ref/transport/emission.h"
+#include "scenes/contacts.h"
+
+#include <algorithm>
 
 namespace cuda_test {
 
@@ -109,6 +112,17 @@ void require_drawn(const ref::World& world, const gpu::SurfacePoint& point,
             "the point that light comes from");
 }
 
+/// Whether another surface lies so close to the emitter's point, and beside it, that floats may take it
+/// to be covered (contact_arrays.cpp); the reference lets light into the gap.
+bool has_near_surface(const ref::World& world, const ref::SurfacePoint& point)
+{
+    const double near = 54 * roundoff * world.geometry.diagonal();
+    return std::ranges::any_of(scenes::surfaces_near(world.scene, point.position, near),
+                               [&](const scenes::NearSurface& surface) {
+                                   return surface.primitive != point.primitive && surface.side != 0;
+                               });
+}
+
 NextStep first_of_light(const Setting& setting, const gpu::SampledEmission& emission,
                         const ref::SampledEmission& drawn, const ref::Uniforms& direction)
 {
@@ -180,6 +194,10 @@ FollowedWalk followed_light_walk(const Setting& setting, const WatchedSample& sa
     if (y0.kind == ref::Vertex::Kind::surface)
         y0.point = surface_of(setting.world, sample.emission->end);
     if (y0.kind == ref::Vertex::Kind::infinity) y0.towards = Vec3(sample.emission->towards);
+    const bool is_surface = y0.kind == ref::Vertex::Kind::surface;
+    if (is_surface && sample.light.vertices.empty() && !sample.light.missed &&
+        has_near_surface(setting.world, y0.point))
+        throw Undecided("light in a gap");
     NextStep from_there = step;
     from_there.origin = Vec3(origin);
     from_there.slack = 0;
