@@ -1,5 +1,6 @@
 #include "cuda/transport/contact_arrays.h"
 
+#include "cuda/transport/surface_point.h"
 #include "cuda/trees/clearance.h"
 #include "scenes/contacts.h"
 
@@ -19,7 +20,7 @@ namespace {
 constexpr double float_rounding = 4 * unit_roundoff;
 
 /// The largest clearance of any surface, at the end of the longest segment, in units of the scene's
-/// diagonal: 18 u for the ray and what has been rounded (clearance_at), and clearance.h; for a sphere
+/// diagonal: 18 u for the ray and what has been rounded (end_clearance), and clearance.h; for a sphere
 /// 30 u.
 constexpr double largest_clearance = 30 * unit_roundoff + clearance_per_length;
 
@@ -125,6 +126,23 @@ void add_coincident(SceneArrays& arrays, const scenes::Scene& scene, const scene
     }
 }
 
+void add_clearances(SceneArrays& arrays)
+{
+    for (std::size_t i = 0; i < arrays.triangles.size(); ++i) {
+        const auto& v = arrays.triangles[i].vertices;
+        const Vec3 e1 = v[1] - v[0];
+        const Vec3 e2 = v[2] - v[0];
+        Surface& surface = arrays.surfaces[i];
+        const Vec3 extent = surface.coincident_count > 0
+                                ? Vec3(arrays.coincident[surface.first_coincident].largest_size)
+                                : triangle_extent(e1, e2);
+        surface.clearance = triangle_clearance(unit_normal(e1, e2), e1, e2, extent);
+    }
+    for (std::size_t i = 0; i < arrays.spheres.size(); ++i)
+        arrays.surfaces[arrays.triangles.size() + i].clearance =
+            sphere_clearance(arrays.spheres[i].radius);
+}
+
 /// A plane that an end lies on or near.
 struct Plane {
     scenes::Vec3 normal;
@@ -136,7 +154,7 @@ struct Plane {
 /// arrays' unit of length: that of clearance.h, and the floats' own errors of end and surface, which
 /// have been rounded since contacts were found. Each moves along every axis by u times its coordinate,
 /// and so does the sum that is the origin: sqrt(3) times that along the normal.
-double clearance_at(const SceneArrays& arrays, std::uint32_t primitive, const Vec3& position)
+double end_clearance(const SceneArrays& arrays, std::uint32_t primitive, const Vec3& position)
 {
     const auto largest = [](const Vec3& v) { return static_cast<double>(max_component(glm::abs(v))); };
     const double root_3 = std::sqrt(3.0);
@@ -218,7 +236,7 @@ EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& scene, const s
         const double distance =
             surface.side == 0 ? 0 : distance_from(scene, surface, position) * arrays.place.scale;
         const double clearance =
-            clearance_at(arrays, surface.primitive, arrays.place(position)) - distance;
+            end_clearance(arrays, surface.primitive, arrays.place(position)) - distance;
         if (!(clearance + clearance_per_length * D > 0)) continue;
         planes.push_back({surface.normal, surface.side, clearance});
         if (surface.primitive < scene.triangles.size() && surface.side == 0)
@@ -246,6 +264,7 @@ EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& scene, const s
 void add_contacts(SceneArrays& arrays, const scenes::Scene& scene)
 {
     add_coincident(arrays, scene, moved(scene, arrays.place));
+    add_clearances(arrays);
     for (std::size_t i = 0; i < arrays.emitters.size(); ++i) {
         const Emitter& emitter = arrays.emitters[i];
         EndContacts& contacts = arrays.lights[i].contacts;

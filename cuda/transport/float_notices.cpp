@@ -102,6 +102,23 @@ void add_narrow_gaps(std::vector<std::string>& notices, const scenes::Scene& sce
              "passes between them is lost");
 }
 
+/// Says so if `position` is so close to a surface that its height is not known: it is rounded by
+/// sqrt(3) u D / 2 at most, D the diagonal of the scene, and so is the surface.
+void add_end(std::vector<std::string>& notices, const scenes::Scene& scene, const std::string& what,
+             const scenes::Vec3& position)
+{
+    const auto box = scenes::bounds(scene);
+    if (!box) return;
+    const double near = 2 * unit_roundoff * glm::length(box->max - box->min);
+    for (const scenes::NearSurface& surface : scenes::surfaces_near(scene, position, near)) {
+        if (surface.side == 0) continue; // on it: there is a rule
+        notices.push_back(what + " is closer to a surface (material \"" +
+                          scene.material_names[material_of(scene, surface.primitive)] +
+                          "\") than single precision can resolve: what is right beside it is wrong");
+        return;
+    }
+}
+
 } // namespace
 
 std::vector<std::string> float_notices(const scenes::Scene& scene)
@@ -134,6 +151,11 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
               "are so small for their distance from the centre of the scene that single precision "
               "cannot leave them safely: light to and from them may be wrong");
     add_narrow_gaps(notices, scene);
+    if (scene.camera) add_end(notices, scene, "the eye", scene.camera->eye);
+    for (std::size_t i = 0; i < scene.point_lights.size(); ++i)
+        add_end(notices, scene, "point light " + std::to_string(i + 1), scene.point_lights[i].position);
+    for (std::size_t i = 0; i < scene.spot_lights.size(); ++i)
+        add_end(notices, scene, "spot light " + std::to_string(i + 1), scene.spot_lights[i].position);
     return notices;
 }
 

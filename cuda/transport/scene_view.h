@@ -53,6 +53,7 @@ struct Light {
 struct Surface {
     std::uint32_t material;
     std::uint32_t emitter; // or no_emitter
+    float clearance = 0;   // triangle_clearance or sphere_clearance
     // Ranges of SceneView::coincident: surfaces that coincide with this one as far as floats can tell,
     // and after them those so near that a segment which ends here may end beyond them.
     std::uint32_t first_coincident = 0, coincident_count = 0, near_count = 0;
@@ -62,8 +63,8 @@ struct Surface {
 struct Coincident {
     std::uint32_t primitive;
     std::int32_t side;  // of the other one, on which it lies: 1 that of the normal; 0: on it
-    float largest_size; // the diameter of a sphere, or the largest extent of all triangles that coincide
-                        // with the other one, and its own
+    float largest_size; // of the other one: the diameter of a sphere; the extent of a triangle, or of
+                        // what coincides with it
 };
 
 template <Needs needs>

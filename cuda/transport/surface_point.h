@@ -26,11 +26,7 @@ HD SurfacePoint triangle_point(const SceneView<needs>& scene, std::uint32_t tria
     point.primitive = triangle;
     point.position = v[0] + (b1 * e1 + b2 * e2);
     point.normal = unit_normal(e1, e2);
-    const Surface& surface = scene.surfaces[triangle];
-    const Vec3 extent = surface.coincident_count > 0
-                            ? Vec3(scene.coincident[surface.first_coincident].largest_size)
-                            : triangle_extent(e1, e2);
-    point.clearance = triangle_clearance(point.position, point.normal, b1, e1, b2, e2, extent);
+    point.clearance = clearance_at(point.position, point.normal, scene.surfaces[triangle].clearance);
     return point;
 }
 
@@ -45,7 +41,7 @@ HD SurfacePoint sphere_point(const SceneView<needs>& scene, std::uint32_t primit
     point.primitive = primitive;
     point.normal = glm::normalize(direction);
     point.position = sphere.center + sphere.radius * point.normal;
-    point.clearance = sphere_clearance(point.position, point.normal, sphere.radius);
+    point.clearance = clearance_at(point.position, point.normal, scene.surfaces[primitive].clearance);
     return point;
 }
 

@@ -49,20 +49,28 @@ HD inline Vec3 triangle_extent(const Vec3& e1, const Vec3& e2)
     return glm::max(glm::max(e1, e2), Vec3(0.0f)) - glm::min(glm::min(e1, e2), Vec3(0.0f));
 }
 
-/// For the point `position` = v0 + (b1 e1 + b2 e2) of a triangle with this normal (unit length): how far
-/// from its plane rays must begin. `extent`: of the triangle, or of what coincides with it.
-HD inline float triangle_clearance(const Vec3& position, const Vec3& normal, float b1, const Vec3& e1,
-                                   float b2, const Vec3& e2, const Vec3& extent)
+/// What a point of a triangle with these edges and this normal (unit length) must be away from its plane
+/// wherever it lies: steps 1 and 3 with the largest weights, but for what grows with the position.
+/// `extent`: of the triangle, or of what coincides with it.
+HD inline float triangle_clearance(const Vec3& normal, const Vec3& e1, const Vec3& e2,
+                                   const Vec3& extent)
 {
-    const Vec3 error = 4.0f * (b1 * glm::abs(e1) + b2 * glm::abs(e2)) + 2.0f * glm::abs(position) +
-                       2.0f * extent + 6.0f * max_component(extent);
+    const Vec3 error =
+        4.0f * glm::max(glm::abs(e1), glm::abs(e2)) + 2.0f * extent + 6.0f * max_component(extent);
     return unit_roundoff * glm::dot(glm::abs(normal), error);
 }
 
-/// The same for the point `position` = c + radius * normal of a sphere.
-HD inline float sphere_clearance(const Vec3& position, const Vec3& normal, float radius)
+/// The same for a sphere.
+HD inline float sphere_clearance(float radius)
 {
-    return unit_roundoff * (2.0f * glm::dot(glm::abs(normal), glm::abs(position)) + 56.0f * radius);
+    return 56 * unit_roundoff * radius;
+}
+
+/// How far from its surface, along the normal, rays must begin at `position`. `own`: the clearance of
+/// the triangle or sphere wherever it is.
+HD inline float clearance_at(const Vec3& position, const Vec3& normal, float own)
+{
+    return own + 2 * unit_roundoff * glm::dot(glm::abs(normal), glm::abs(position));
 }
 
 /// How much further from a surface, per unit of its length, a segment that comes to it must end.

@@ -50,7 +50,8 @@ Point on_triangle(const World& world, std::size_t triangle, float b1, float b2)
     const Vec3 position = v[0] + (b1 * e1 + b2 * e2);
     const Vec3 normal = glm::normalize(glm::cross(e1, e2));
     return {position, normal,
-            gpu::triangle_clearance(position, normal, b1, e1, b2, e2, gpu::triangle_extent(e1, e2))};
+            gpu::clearance_at(position, normal,
+                         gpu::triangle_clearance(normal, e1, e2, gpu::triangle_extent(e1, e2)))};
 }
 
 Point on_sphere(const World& world, std::size_t sphere, const Vec3& direction)
@@ -58,7 +59,7 @@ Point on_sphere(const World& world, std::size_t sphere, const Vec3& direction)
     const auto& [center, radius] = world.spheres[sphere];
     const Vec3 normal = glm::normalize(direction);
     const Vec3 position = center + radius * normal;
-    return {position, normal, gpu::sphere_clearance(position, normal, radius)};
+    return {position, normal, gpu::clearance_at(position, normal, gpu::sphere_clearance(radius))};
 }
 
 Point at(const World& world, const Ray& ray, const Hit& hit)
@@ -188,7 +189,7 @@ TEST(LeaveSurfaceInFloat, MovesAPointByNoMoreThanItsErrorBound)
                           {});
         const test::Vec3 b = random.barycentric();
         const Point point = on_triangle(world, 0, static_cast<float>(b[1]), static_cast<float>(b[2]));
-        // |n|_1 <= sqrt(3) times the largest of 4 u b e + 2 u |p| + 8 u a, b e and a <= D; and its
+        // |n|_1 <= sqrt(3) times the largest of 4 u e + 2 u |p| + 8 u a, e and a <= D; and its
         // rounding.
         const double far = s.offset + 3 * s.size;
         const double largest = u * (12 * world.tree.diagonal() + 2 * far);

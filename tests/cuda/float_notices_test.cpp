@@ -64,6 +64,21 @@ TEST(FloatNotices, NameWhatIsTooSmallToLeave)
         << gpu::float_notices(scene)[0];
 }
 
+TEST(FloatNotices, NameEndsWhoseHeightIsNotKnown)
+{
+    scenes::Scene scene = ground();
+    const auto with_light_at = [&](double height) {
+        scene.point_lights = {{Vec3(0.3, 0, height), scenes::Rgb(1.0)}};
+        return gpu::float_notices(scene);
+    };
+    EXPECT_TRUE(with_light_at(0.0).empty()); // there is a rule
+    EXPECT_TRUE(with_light_at(1e-5).empty());
+    ASSERT_EQ(with_light_at(1e-8).size(), 1u);
+    EXPECT_TRUE(
+        with_light_at(1e-8)[0].starts_with("point light 1 is closer to a surface (material \"gr"))
+        << with_light_at(1e-8)[0];
+}
+
 // A pane of glass over the ground, at a distance.
 TEST(FloatNotices, NameGlassTooCloseToAnotherSurface)
 {

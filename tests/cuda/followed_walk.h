@@ -56,8 +56,8 @@ struct Range {
     double low, high;
 };
 
-/// How far from the primitive, in floats, a ray may begin that leaves it at `p` (clearance.h), whatever
-/// the weights of p and with a thousandth for rounding.
+/// How far from the primitive, in floats, a ray may begin that leaves it at `p` (clearance.h), with
+/// a thousandth for rounding.
 Range clearance_of(const ref::World& world, std::uint32_t primitive, const ref::Vec3& p,
                    const ref::Vec3& normal);
 

@@ -45,9 +45,10 @@ bool add_walls_of_light(OddBuilder& builder, const Rgb& sky)
     return odd;
 }
 
-/// What the radiance of the picture is, in units of that of the sky.
+/// What the radiance of the picture is, in units of that of the sky. `height`: how far the eye is from
+/// the nearest surface, if that is close.
 double add_eye(OddBuilder& builder, const Vec3& cell, const Vec3& towards, Matter& matter,
-               bool& light_sees)
+               bool& light_sees, double& height)
 {
     const double fov = builder.chance(0.2) ? builder.any_size(1e-4, 3.1) : builder.any(0.3, 2);
     if (fov < 0.1 || fov > 2) {
@@ -64,6 +65,7 @@ double add_eye(OddBuilder& builder, const Vec3& cell, const Vec3& towards, Matte
         builder.add_box(cell - Vec3(0.3, 0.3, 0.4), cell + Vec3(0.3, 0.3, 0), matter.matte, true);
         builder.look(cell + Vec3(builder.any(-0.2, 0.2), 0, gap), along, roll, fov);
         light_sees = false;
+        height = gap;
         return 1;
     }
     builder.look(cell, along, roll, fov);
@@ -91,11 +93,14 @@ OddScene odd_furnace(std::uint32_t seed, bool sky)
     const std::vector<Vec3> cells = any_cells(builder);
     std::size_t cell = 0;
     const Vec3 eye = cells[cell++];
-    const double there = add_eye(builder, eye, cells[1], matter, odd.light_sees);
+    double height = 1;
+    const double there = add_eye(builder, eye, cells[1], matter, odd.light_sees, height);
     for (int things = 1 + builder.pick(5); things > 0; --things)
         if (add_thing(builder, cells[cell++], 0.45, matter)) odd.light_sees = false;
     if (sky && builder.chance(0.3)) {
-        const double half = builder.any_size(2, largest_thing);
+        // Floats place the eye to within 2^-24 of the scene, which must be less than its height: else
+        // what it sees right in front of it is another picture (float_notices.h names such an eye).
+        const double half = std::min(builder.any_size(2, largest_thing), std::max(2.0, 1e6 * height));
         builder.say("ground", half);
         builder.add_quad(Vec3(-half, -half, -1.5), Vec3(2 * half, 0, 0), Vec3(0, 2 * half, 0),
                          matter.matte);

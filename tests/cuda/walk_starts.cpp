@@ -81,15 +81,13 @@ Range clearance_of(const ref::World& world, std::uint32_t primitive, const Vec3&
         return {0.999 * roundoff * clearance, 1.001 * roundoff * clearance};
     }
     const auto& v = world.scene.triangles[primitive].vertices;
-    const Vec3 edges = glm::abs(v[1] - v[0]) + glm::abs(v[2] - v[0]);
+    const double edges = 4 * glm::dot(n, glm::max(glm::abs(v[1] - v[0]), glm::abs(v[2] - v[0])));
     const Vec3 own = glm::max(glm::max(v[0], v[1]), v[2]) - glm::min(glm::min(v[0], v[1]), v[2]);
     const auto of_extent = [&](const Vec3& a) {
         return glm::dot(n, 2.0 * a) + 6 * std::max({a.x, a.y, a.z}) * (n.x + n.y + n.z);
     };
-    // Its weights of the edges are between 0 and 1.
-    const double least = position + of_extent(own);
-    const double most =
-        position + of_extent(world.geometry.extent(primitive, own)) + 4 * glm::dot(n, edges);
+    const double least = position + edges + of_extent(own);
+    const double most = position + edges + of_extent(world.geometry.extent(primitive, own));
     return {0.999 * roundoff * least, 1.001 * roundoff * most};
 }
 
