@@ -18,7 +18,7 @@ namespace gpu {
 /// joined, so one cosine and a constant are all there is to their BSDF.
 struct alignas(16) LightVertex {
     Vec3 position;
-    float clearance; // negative where another surface is near, see visible()
+    float clearance; // negative where another surface is near (Surface::near_count)
     Vec3 facing;     // unit normal on the side that the walk came from
     float onward;    // the walk's density per solid angle over the cosine, with the chance of going on
     Rgb alpha;       // BSDF included; black where the vertex can be joined to nothing
@@ -55,19 +55,13 @@ HD bool visible(const SceneView<needs>& scene, const Vec3& from, const Vec3& to)
     return !any_hit(scene.geometry, {from, 1.0f, to - from});
 }
 
-/// Whether the light vertex, and z on the side that its walk came from, see each other at this distance.
+/// The same by way of `middle`. The end of a segment may lie beyond a surface that is close over its
+/// own; the beginning of a ray does not (clearance.h). So one goes from each place.
 template <Needs needs>
-HD bool visible(const SceneView<needs>& scene, const SurfacePoint& z, const Vec3& facing,
-                const LightVertex& y, float distance)
+SELDOM HD bool visible_by_halves(const SceneView<needs>& scene, const Vec3& a, const Vec3& b,
+                                 const Vec3& middle)
 {
-    const Vec3 from = z.position + z.clearance * facing;
-    if (y.clearance >= 0.0f)
-        return visible(scene, from,
-                       y.position + (y.clearance + clearance_per_length * distance) * y.facing);
-    // The end of a segment might lie beyond a surface that is near y; the beginning of a ray does not
-    // (clearance.h). So one goes from each to the middle.
-    const Vec3 middle = 0.5f * (z.position + y.position);
-    return visible(scene, from, middle) && visible(scene, y.position - y.clearance * y.facing, middle);
+    return visible(scene, a, middle) && visible(scene, b, middle);
 }
 
 /// t = 1: y_{s-1}, at `point`, is joined to the pinhole. `alpha`: its weight with what it sends to the
@@ -87,7 +81,7 @@ HD void light_image(const SceneView<needs>& scene, const PathOptions& options, i
     if (lies_on(scene, scene.eye_contacts, point.primitive)) return;
     if (s == 1 && !sees_first(scene, point, w)) return;
     if (!visible(
-            scene, leave_surface(point, w),
+            scene, leave_to_side(point, facing),
             leave_end(scene, scene.camera.eye, scene.eye_contacts, -w, distance2 * std::sqrt(spread))))
         return;
     // The density of y_{s-1} for the eye walk; and the measurement, since W_e cos is that density.
@@ -198,7 +192,7 @@ HD void next_event(const SceneView<needs>& scene, const PathOptions& options, co
     const float cosine = glm::dot(z.facing, light.wi);
     const Rgb value = z.alpha * cosine * light.alpha;
     if (!(cosine > 0.0f) || is_black(value)) return;
-    const Vec3 from = leave_surface(z.point, light.wi);
+    const Vec3 from = leave_to_side(z.point, z.facing);
     const Emitter& emitter = scene.emitters[light.emitter];
     if (is_surface<needs>(emitter)
             ? !sees_first(scene, light.end, -light.wi)
@@ -235,7 +229,15 @@ HD void inner_connection(const SceneView<needs>& scene, const PathOptions& optio
     const float G = cosine_z * cosine_y * spread;
     const Rgb value = z.alpha * G * y.alpha;
     if (is_black(value)) return;
-    if (!visible(scene, z.point, z.facing, y, distance2 * to_unit)) return;
+    const Vec3 from = leave_to_side(z.point, z.facing);
+    if (y.clearance < 0.0f) {
+        if (!visible_by_halves(scene, from, y.position - y.clearance * y.facing,
+                               z.point.position + 0.5f * d))
+            return;
+    } else {
+        const float clearance = y.clearance + clearance_per_length * distance2 * to_unit;
+        if (!visible(scene, from, y.position + clearance * y.facing)) return;
+    }
     const int by_t = glm::min(z.t, 5) - 2;
     const int by_s = glm::min(s, 5) - 1;
     sink.add(s, z.t, value,

@@ -44,10 +44,9 @@ HD inline std::uint32_t meeting_rank(const Material& material, bool from_front)
 /// first where floats cannot tell and doubles can; else that of the lowest rank; else of the lowest
 /// number.
 template <Needs needs>
-HD Hit first_of_coincident(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
+SELDOM HD Hit first_of_several(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
 {
-    const Surface surface = scene.surfaces[hit.primitive];
-    if (surface.coincident_count == 0) return hit;
+    const Surface& surface = scene.surfaces[hit.primitive];
     const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
     const auto from_front = [&](const Hit& h) {
         if (h.primitive >= triangles)
@@ -85,13 +84,19 @@ HD Hit first_of_coincident(const SceneView<needs>& scene, const Ray& ray, const 
     return first;
 }
 
-/// Whether a ray that comes from direction `towards` (unit length) sees the surface at `point`, and not
-/// one that coincides with it or lies so close over it that a segment to the point may end between them.
+/// The same for any hit.
 template <Needs needs>
-HD bool sees_first(const SceneView<needs>& scene, const SurfacePoint& point, const Vec3& towards)
+HD Hit first_of_coincident(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
+{
+    return scene.surfaces[hit.primitive].coincident_count == 0 ? hit : first_of_several(scene, ray, hit);
+}
+
+/// See sees_first.
+template <Needs needs>
+SELDOM HD bool sees_first_of_several(const SceneView<needs>& scene, const SurfacePoint& point,
+                                     const Vec3& towards)
 {
     const Surface& surface = scene.surfaces[point.primitive];
-    if (surface.coincident_count + surface.near_count == 0) return true;
     // From away, so that t is not near 0; but no further than the surfaces are large.
     const float away = scene.coincident[surface.first_coincident].largest_size;
     const Ray ray{point.position + away * towards, std::numeric_limits<float>::infinity(), -towards};
@@ -109,6 +114,16 @@ HD bool sees_first(const SceneView<needs>& scene, const SurfacePoint& point, con
     }
     return first_of_coincident(scene, ray, Hit{away, point.primitive, 0, 0}).primitive ==
            point.primitive;
+}
+
+/// Whether a ray that comes from direction `towards` (unit length) sees the surface at `point`, and not
+/// one that coincides with it or lies so close over it that a segment to the point may end between them.
+template <Needs needs>
+HD bool sees_first(const SceneView<needs>& scene, const SurfacePoint& point, const Vec3& towards)
+{
+    const Surface& surface = scene.surfaces[point.primitive];
+    return surface.coincident_count + surface.near_count == 0 ||
+           sees_first_of_several(scene, point, towards);
 }
 
 } // namespace gpu

@@ -146,7 +146,7 @@ HD bool sample_incident(const SceneView<needs>& scene, const Vec3& from, const U
         light.geometry = cosine * light.spread;
         light.pdf_direction = cosine * inverse_pi;
         light.alpha = emitter.emitted * (light.geometry / light.pdf_position);
-        light.target = end_at_surface(light.end, -d, distance2 * std::sqrt(light.spread));
+        light.target = end_at_surface(light.end, light.end.normal, distance2 * std::sqrt(light.spread));
         return true;
     }
     if constexpr (needs.other_lights) {

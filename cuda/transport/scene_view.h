@@ -102,11 +102,17 @@ HD inline Vec3 leave_surface(const SurfacePoint& point, const Vec3& direction)
     return leave_surface(point.position, point.normal, point.clearance, direction);
 }
 
-/// Where a segment of that `length` ends that comes to `point` from the side of `back`.
-HD inline Vec3 end_at_surface(const SurfacePoint& point, const Vec3& back, float length)
+/// The same on the side of `facing`, which is the normal or its opposite.
+HD inline Vec3 leave_to_side(const SurfacePoint& point, const Vec3& facing)
 {
-    return leave_surface(point.position, point.normal, point.clearance + clearance_per_length * length,
-                         back);
+    return point.position + point.clearance * facing;
+}
+
+/// Where a segment of that `length` ends that comes to `point` from the side of `facing`, which is the
+/// normal or its opposite.
+HD inline Vec3 end_at_surface(const SurfacePoint& point, const Vec3& facing, float length)
+{
+    return point.position + (point.clearance + clearance_per_length * length) * facing;
 }
 
 } // namespace gpu

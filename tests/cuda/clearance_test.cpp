@@ -51,7 +51,7 @@ Point on_triangle(const World& world, std::size_t triangle, float b1, float b2)
     const Vec3 normal = glm::normalize(glm::cross(e1, e2));
     return {position, normal,
             gpu::clearance_at(position, normal,
-                         gpu::triangle_clearance(normal, e1, e2, gpu::triangle_extent(e1, e2)))};
+                              gpu::triangle_clearance(normal, e1, e2, gpu::triangle_extent(e1, e2)))};
 }
 
 Point on_sphere(const World& world, std::size_t sphere, const Vec3& direction)
