@@ -96,8 +96,9 @@ void add_coincident(SceneArrays& arrays, const scenes::Scene& scene, const scene
 {
     const scenes::Coincidences near =
         scenes::coincidences(here, float_rounding, nullptr, largest_clearance * arrays.diagonal);
-    if (near.empty()) return;
     const scenes::Coincidences in_floats = scenes::coincidences(here, float_rounding);
+    // Neither has all of the other: triangles that are smaller than a distance are not that near.
+    if (near.empty() && in_floats.empty()) return;
     const scenes::Coincidences in_doubles = scenes::coincidences(scene);
     for (std::uint32_t i = 0; i < scenes::primitive_count(here); ++i) {
         Surface& surface = arrays.surfaces[i];

@@ -135,4 +135,20 @@ TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
     EXPECT_TRUE(gpu::scene_arrays(apart, true).coincident.empty());
 }
 
+// They may be as small as the distance up to which surfaces are near.
+TEST(CoincidentSurfaces, AreFoundHoweverSmall)
+{
+    for (const double size : {1.0, 1e-2, 1e-4, 1e-5}) {
+        scenes::Scene scene;
+        scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
+        scene.material_names = {"wall"};
+        const Vec3 at(0.3, 0.2, 0.4);
+        const scenes::Triangle small{{at, at + Vec3(size, 0, 0), at + Vec3(0, size, 0)}, 0};
+        scene.triangles = {{{Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0)}, 0}, small, small};
+        const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+        EXPECT_EQ(arrays.surfaces[1].coincident_count, 1u) << size;
+        EXPECT_EQ(arrays.surfaces[2].coincident_count, 1u) << size;
+    }
+}
+
 } // namespace
