@@ -21,15 +21,14 @@
 //    is a weighted mean of theirs, in double. If they all lie below a plane parallel to the triangle
 //    that the ray stays above, no mean of them is at a t > 0. Rounding t to a float keeps its order with
 //    0 and with t_max.
-// 4. A segment d that ends on a triangle: |m_i| <= |d_i| + a_i, and the rounded direction moves its end
-// by
-//    u |d_i|. Beyond step 3 that is 3 u |d_i| + 5 u |d|, along n less than 11.7 u times its length.
+// 4. A segment d that ends on a triangle: |m_i| <= |d_i| + a_i, and the rounded direction moves its
+//    end by u |d_i|. Beyond step 3 that is 3 u |d_i| + 5 u |d|, along n less than 11.7 u times its
+//    length.
 // 5. A sphere (sphere.h): what is reported as a hit is within 22 u M of it, M the larger of 2 r and the
 //    distance of the origin from the centre. Where a ray leaves it, M = 2 r: 44 u r. Where a segment
 //    ends, M <= 2 r + |d|; with its rounded direction less than 24 u |d| more.
-// 6. The rounding of s n itself and that of these bounds are of second order: u more in step 1, u a more
-// in
-//    step 3 and 5 u r more in step 5 are room for it.
+// 6. The rounding of s n itself and that of these bounds are of second order: u more in step 1, u a
+//    more in step 3 and 5 u r more in step 5 are room for it.
 // 7. Surfaces that coincide with a triangle may be larger than it is: then a is the largest of theirs.
 //    A neighbour in the same plane needs no more than the triangle itself where they share an edge: near
 //    that edge the place of the neighbour's third vertex has no weight.
