@@ -35,6 +35,16 @@ void add_box(scenes::Scene& scene, const Vec3& p, const Vec3& a, const Vec3& b, 
     add_quad(scene, p + b, c, a, material);
 }
 
+/// An orthonormal frame in which no coordinate is exact.
+const Vec3 x(0.8, 0.48, 0.36);
+const Vec3 y(-0.6, 0.64, 0.48);
+const Vec3 z(0.0, -0.6, 0.8);
+
+Vec3 at(double a, double b, double c)
+{
+    return a * x + b * y + c * z;
+}
+
 /// A matte room with a lamp under its ceiling, and over its floor a pane of glass, turned so that no
 /// coordinate is exact.
 scenes::Scene room_with_pane(double thickness)
@@ -44,10 +54,6 @@ scenes::Scene room_with_pane(double thickness)
     scene.materials = {scenes::Lambertian{Rgb(0.6, 0.54, 0.48)}, scenes::Emission{Rgb(5.0, 4.0, 3.0)},
                        scenes::Glass{Rgb(0.9), Rgb(0.9), 1.5}};
     scene.material_names = {"wall", "lamp", "pane"};
-    const Vec3 x(0.8, 0.48, 0.36);
-    const Vec3 y(-0.6, 0.64, 0.48);
-    const Vec3 z(0.0, -0.6, 0.8);
-    const auto at = [&](double a, double b, double c) { return a * x + b * y + c * z; };
     // Facing inwards: left-handed.
     add_box(scene, at(-1, -1, -1), 2.0 * y, 2.0 * x, 2.0 * z, 0);
     add_quad(scene, at(-0.4, 0.4, 0.9), 0.8 * x, -0.8 * y, 1);
@@ -103,10 +109,6 @@ scenes::Scene room_with_covered_lamp(double below, double gap, double outside)
     scene.materials = {scenes::Lambertian{Rgb(0.5)}, scenes::Emission{Rgb(1e-4)},
                        scenes::Emission{Rgb(1)}};
     scene.material_names = {"wall", "faint", "strong"};
-    const Vec3 x(0.8, 0.48, 0.36);
-    const Vec3 y(-0.6, 0.64, 0.48);
-    const Vec3 z(0.0, -0.6, 0.8);
-    const auto at = [&](double a, double b, double c) { return a * x + b * y + c * z; };
     add_box(scene, at(-1.5, -1.5, -1.5), 3.0 * y, 3.0 * x, 3.0 * z, 0);
     add_quad(scene, at(-0.5, 0.5, 1.5 - below), x, -y, 1);
     add_quad(scene, at(-0.5, 0.5, 1.5 - below - gap), x, -y, 2);
@@ -158,7 +160,7 @@ TEST(ThinThings, APaneCloseOverAWallIsNotLeftOut)
     for (const double gap : {0.0, 3e-6, 1e-5}) {
         SCOPED_TRACE(gap);
         scenes::Scene scene = room_with_pane(0.01);
-        const Vec3 to_floor = (gap - 0.05) * Vec3(0.0, -0.6, 0.8);
+        const Vec3 to_floor = (gap - 0.05) * z;
         for (scenes::Triangle& triangle : scene.triangles)
             if (triangle.material == 2)
                 for (Vec3& v : triangle.vertices) v += to_floor;
