@@ -2,6 +2,7 @@
 // each light in closed form (lit_plane.h). Whatever is below the plane, in it (listed later), or without
 // area, changes nothing.
 
+#include "scenes/bounds.h"
 #include "tests/cuda/lit_plane.h"
 #include "tests/cuda/odd_scenes.h"
 #include "tests/cuda/odd_things.h"
@@ -140,14 +141,12 @@ OddScene odd_plane(std::uint32_t seed)
 
     odd.path_sees = !lit.has_narrow_spot();
     odd.light_sees = !strong && half <= 3 && !lit.far_or_low() && eye.from.z > 0.3;
-    // Coordinates err by a few unit roundoffs of the largest one near by. 16 of them bound the sum for a
-    // point of the plane, a light and the edges of a lamp.
-    double largest = 3;
-    for (int i = 0; i < 4; ++i) {
-        const Vec3 corner = builder.place(half * Vec3(i % 2 * 2 - 1, i / 2 * 2 - 1, 0)) / builder.size();
-        for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(corner[axis]));
-    }
-    odd.float_tolerance += 16 * 0x1p-24 * lit.condition() * largest + lit.spot_tolerance();
+    // Coordinates err by a few unit roundoffs of the size of the scene, hidden things included. 16 of
+    // them bound the sum for a point of the plane, a light and the edges of a lamp; and a narrow spot is
+    // moved by as much of its width as its light and the plane are.
+    const auto box = scenes::bounds(builder.full()).value();
+    const double largest = std::max(3.0, glm::length(box.max - box.min) / builder.size());
+    odd.float_tolerance += 16 * 0x1p-24 * lit.condition() * largest + lit.spot_tolerance() * largest;
     const Rgb albedo = std::get<scenes::Lambertian>(builder.full().materials[matter.matte]).albedo;
     const Rgb radiance = albedo / pi * lit.irradiance();
     odd.scene = builder.full();

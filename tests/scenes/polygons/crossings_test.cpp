@@ -42,9 +42,9 @@ RC_GTEST_PROP(Crossings, AreSeenWhereverTheyAre, ())
             const auto abd = tests::twice_area(a, b, d);
             const auto cda = tests::twice_area(c, d, a);
             const auto cdb = tests::twice_area(c, d, b);
-            touch = touch || (j > i + 1 && (j + 1) % n != i && abc * abd * cda * cdb == 0);
-            expected = expected ||
-                       ((abc < 0) != (abd < 0) && (cda < 0) != (cdb < 0) && abc * abd * cda * cdb != 0);
+            const bool on_a_line = abc == 0 || abd == 0 || cda == 0 || cdb == 0;
+            touch = touch || (j > i + 1 && (j + 1) % n != i && on_a_line);
+            expected = expected || (!on_a_line && (abc < 0) != (abd < 0) && (cda < 0) != (cdb < 0));
         }
     RC_PRE(!touch);
     RC_ASSERT(cross({ring}) == expected);
