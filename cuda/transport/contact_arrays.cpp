@@ -127,6 +127,7 @@ void add_coincident(SceneArrays& arrays, const scenes::Scene& scene, const scene
     }
 }
 
+/// And the normals of triangles.
 void add_clearances(SceneArrays& arrays)
 {
     for (std::size_t i = 0; i < arrays.triangles.size(); ++i) {
@@ -137,7 +138,8 @@ void add_clearances(SceneArrays& arrays)
         const Vec3 extent = surface.coincident_count > 0
                                 ? Vec3(arrays.coincident[surface.first_coincident].largest_size)
                                 : triangle_extent(e1, e2);
-        surface.clearance = triangle_clearance(unit_normal(e1, e2), e1, e2, extent);
+        surface.normal = unit_normal(e1, e2);
+        surface.clearance = triangle_clearance(surface.normal, e1, e2, extent);
     }
     for (std::size_t i = 0; i < arrays.spheres.size(); ++i)
         arrays.surfaces[arrays.triangles.size() + i].clearance =

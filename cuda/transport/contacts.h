@@ -53,8 +53,7 @@ SELDOM HD Hit first_of_several(const SceneView<needs>& scene, const Ray& ray, co
             return glm::dot(ray.origin + h.t * ray.direction -
                                 scene.spheres[h.primitive - triangles].center,
                             ray.direction) < 0.0f;
-        const auto& v = scene.triangles[h.primitive].vertices;
-        return glm::dot(unit_normal(v[1] - v[0], v[2] - v[0]), ray.direction) < 0.0f;
+        return glm::dot(scene.surfaces[h.primitive].normal, ray.direction) < 0.0f;
     };
     const auto rank = [&](const Hit& h) {
         return meeting_rank(scene.materials[scene.surfaces[h.primitive].material], from_front(h));

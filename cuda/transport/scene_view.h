@@ -54,6 +54,7 @@ struct Surface {
     std::uint32_t material;
     std::uint32_t emitter; // or no_emitter
     float clearance = 0;   // triangle_clearance or sphere_clearance
+    Vec3 normal = {};      // of a triangle, unit length
     // Ranges of SceneView::coincident: surfaces that coincide with this one as far as floats can tell,
     // and after them those so near that a segment which ends here may end beyond them.
     std::uint32_t first_coincident = 0, coincident_count = 0, near_count = 0;

@@ -25,7 +25,7 @@ HD SurfacePoint triangle_point(const SceneView<needs>& scene, std::uint32_t tria
     SurfacePoint point{};
     point.primitive = triangle;
     point.position = v[0] + (b1 * e1 + b2 * e2);
-    point.normal = unit_normal(e1, e2);
+    point.normal = scene.surfaces[triangle].normal;
     point.clearance = clearance_at(point.position, point.normal, scene.surfaces[triangle].clearance);
     return point;
 }
