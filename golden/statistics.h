@@ -60,10 +60,9 @@ TestResult welch(const MeanEstimate& a, const MeanEstimate& b, double tolerance 
 /// has an event that is rare for it: neither its variance nor its skewness then shows that there are
 /// such events. It may, if both hold:
 /// - its standard deviation is less than a tenth of the reference's, which has seen the events;
-/// - events so rare that all of its B batches lack them with a probability of `level`, (1 - q)^B =
-/// level,
-///   can bring what is missing: each has to bring missing / q, and that is at most four times what the
-///   `largest` value of the reference is above its mean.
+/// - events that all of its B batches lack with a probability of `level`, (1 - q)^B = level, can bring
+///   what is missing: each has to bring missing / q, and that is at most four times what the `largest`
+///   value of the reference is above its mean.
 /// So light that is missing for good where the reference has little noise is not taken for bad luck.
 bool may_lack_rare_events(const Moments& candidate, const Moments& reference, double largest,
                           double level);

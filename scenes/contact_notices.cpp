@@ -3,19 +3,12 @@
 #include "scenes/contacts.h"
 
 #include "scenes/largest_component.h"
+#include "scenes/primitive_name.h"
 
 #include <glm/geometric.hpp>
 
 namespace scenes {
 namespace {
-
-std::string describe(const Scene& scene, std::uint32_t primitive)
-{
-    const bool is_triangle = primitive < scene.triangles.size();
-    const std::size_t number = is_triangle ? primitive : primitive - scene.triangles.size();
-    return std::string(is_triangle ? "triangle " : "sphere ") + std::to_string(number + 1) +
-           " (material \"" + scene.material_names[material_of(scene, primitive)] + "\")";
-}
 
 /// Whether a picture can show which of two coincident surfaces is seen: not where two opaque ones face
 /// each other, as where a body stands on the ground; nor where their materials are one.
@@ -44,7 +37,7 @@ void add_end(std::vector<std::string>& notices, const Scene& scene, const std::s
     if (on.empty()) return;
     const std::string others =
         on.size() > 1 ? " and " + std::to_string(on.size() - 1) + " more surface(s)" : "";
-    notices.push_back(what + " lies on " + describe(scene, on[0]) + others +
+    notices.push_back(what + " lies on " + primitive_name(scene, on[0]) + others +
                       ": it is not hidden by what it lies on");
 }
 
@@ -59,7 +52,7 @@ void add_crowd(std::vector<std::string>& notices, const Scene& scene, const Coin
         if (coincident.of(i).size() > coincident.of(fullest).size()) fullest = i;
     if (primitive_count(scene) == 0 || coincident.of(fullest).size() < many) return;
     notices.push_back(std::to_string(coincident.of(fullest).size()) + " surfaces coincide with " +
-                      describe(scene, fullest) +
+                      primitive_name(scene, fullest) +
                       ": no tree can part them, and every ray that comes near tests them all");
 }
 
@@ -88,8 +81,8 @@ std::vector<std::string> contact_notices(const Scene& scene)
         }
     if (pairs > 0)
         notices.push_back(
-            std::to_string(pairs) + " pair(s) of surfaces coincide, first " + describe(scene, first) +
-            " and " + describe(scene, second) +
+            std::to_string(pairs) + " pair(s) of surfaces coincide, first " +
+            primitive_name(scene, first) + " and " + primitive_name(scene, second) +
             ": a ray sees an emitter from its shining side before an opaque surface, and this before "
             "glass; of two of one kind the one that comes first in the file");
     if (!complete)

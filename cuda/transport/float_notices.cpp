@@ -1,17 +1,17 @@
 #include "cuda/transport/float_notices.h"
 
 #include "cuda/transport/scene_arrays.h"
-#include "cuda/trees/rounding.h"
+#include "cuda/transport/surface_point.h"
 #include "scenes/bounds.h"
 #include "scenes/contacts.h"
 #include "scenes/largest_component.h"
+#include "scenes/primitive_name.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace gpu {
 namespace {
@@ -27,12 +27,8 @@ public:
     void say(std::vector<std::string>& notices, const scenes::Scene& scene, const char* what) const
     {
         if (count_ == 0) return;
-        const bool is_triangle = first_ < scene.triangles.size();
-        const std::size_t number = is_triangle ? first_ : first_ - scene.triangles.size();
         notices.push_back(std::to_string(count_) + " surface(s), first " +
-                          (is_triangle ? "triangle " : "sphere ") + std::to_string(number + 1) +
-                          " (material \"" + scene.material_names[material_of(scene, first_)] + "\"), " +
-                          what);
+                          scenes::primitive_name(scene, first_) + ", " + what);
     }
 
 private:
@@ -47,20 +43,18 @@ bool is_too_small(double extent, double distance)
     return extent < 16 * unit_roundoff * distance;
 }
 
-/// The largest distance from a triangle at which rays begin that leave it (clearance.h), in the scene's
-/// own unit of length.
-double clearance_of(const scenes::Triangle& triangle, const scenes::Vec3& origin)
+/// The largest distance from a triangle at which rays begin that leave it, in the scene's own unit of
+/// length.
+double clearance_of(const scenes::Triangle& triangle, const Placement& place)
 {
-    const auto& v = triangle.vertices;
-    const scenes::Vec3 e1 = v[1] - v[0];
-    const scenes::Vec3 e2 = v[2] - v[0];
-    const scenes::Vec3 n = glm::abs(glm::normalize(glm::cross(e1, e2)));
-    const scenes::Vec3 extent =
-        glm::max(glm::max(v[0], v[1]), v[2]) - glm::min(glm::min(v[0], v[1]), v[2]);
-    const scenes::Vec3 position =
-        glm::max(glm::max(glm::abs(v[0] - origin), glm::abs(v[1] - origin)), glm::abs(v[2] - origin));
-    return unit_roundoff * glm::dot(n, 4.0 * glm::max(glm::abs(e1), glm::abs(e2)) + 2.0 * position +
-                                           2.0 * extent + 6.0 * scenes::largest_component(extent));
+    const Vec3 v[] = {place(triangle.vertices[0]), place(triangle.vertices[1]),
+                      place(triangle.vertices[2])};
+    const Vec3 e1 = v[1] - v[0];
+    const Vec3 e2 = v[2] - v[0];
+    const Vec3 normal = unit_normal(e1, e2);
+    const Vec3 farthest = glm::max(glm::max(glm::abs(v[0]), glm::abs(v[1])), glm::abs(v[2]));
+    const float own = triangle_clearance(normal, e1, e2, triangle_extent(e1, e2));
+    return static_cast<double>(clearance_at(farthest, normal, own)) / place.scale;
 }
 
 /// How far the middle of b is from the plane of a.
@@ -73,16 +67,17 @@ double distance_between(const scenes::Triangle& a, const scenes::Triangle& b)
 
 /// Glass triangles from which rays begin beyond another triangle; but not those that coincide with one,
 /// for which there is a rule (scenes/contacts.h).
-void add_narrow_gaps(std::vector<std::string>& notices, const scenes::Scene& scene)
+void add_narrow_gaps(std::vector<std::string>& notices, const scenes::Scene& scene,
+                     const Placement& place, double diagonal)
 {
     const auto is_glass = [&](std::uint32_t primitive) {
         return std::holds_alternative<scenes::Glass>(scene.materials[material_of(scene, primitive)]);
     };
-    const auto box = scenes::bounds(scene);
-    if (!box) return;
-    const scenes::Vec3 origin = box->min / 2.0 + box->max / 2.0;
-    const double reach =
-        30 * unit_roundoff * glm::length(box->max - box->min); // more than any clearance
+    if (std::ranges::none_of(scene.materials, [](const scenes::Material& material) {
+            return std::holds_alternative<scenes::Glass>(material);
+        }))
+        return;
+    const double reach = 30 * unit_roundoff * diagonal; // more than any clearance
     const scenes::Coincidences near =
         scenes::coincidences(scene, scenes::double_rounding, nullptr, reach);
     if (near.empty()) return;
@@ -93,7 +88,7 @@ void add_narrow_gaps(std::vector<std::string>& notices, const scenes::Scene& sce
         const scenes::Triangle& triangle = scene.triangles[i];
         const bool too_close = std::ranges::any_of(near.of(i), [&](std::uint32_t other) {
             return !std::ranges::binary_search(touching.of(i), other) &&
-                   distance_between(triangle, scene.triangles[other]) < clearance_of(triangle, origin);
+                   distance_between(triangle, scene.triangles[other]) < clearance_of(triangle, place);
         });
         if (too_close) gaps.add(i);
     }
@@ -104,12 +99,10 @@ void add_narrow_gaps(std::vector<std::string>& notices, const scenes::Scene& sce
 
 /// Says so if `position` is so close to a surface that its height is not known: it is rounded by
 /// sqrt(3) u D / 2 at most, D the diagonal of the scene, and so is the surface.
-void add_end(std::vector<std::string>& notices, const scenes::Scene& scene, const std::string& what,
-             const scenes::Vec3& position)
+void add_end(std::vector<std::string>& notices, const scenes::Scene& scene, double diagonal,
+             const std::string& what, const scenes::Vec3& position)
 {
-    const auto box = scenes::bounds(scene);
-    if (!box) return;
-    const double near = 2 * unit_roundoff * glm::length(box->max - box->min);
+    const double near = 2 * unit_roundoff * diagonal;
     for (const scenes::NearSurface& surface : scenes::surfaces_near(scene, position, near)) {
         if (surface.side == 0) continue; // on it: there is a rule
         notices.push_back(what + " is closer to a surface (material \"" +
@@ -150,12 +143,17 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
     small.say(notices, scene,
               "are so small for their distance from the centre of the scene that single precision "
               "cannot leave them safely: light to and from them may be wrong");
-    add_narrow_gaps(notices, scene);
-    if (scene.camera) add_end(notices, scene, "the eye", scene.camera->eye);
+    const auto box = scenes::bounds(scene);
+    if (!box) return notices;
+    const double diagonal = glm::length(box->max - box->min);
+    add_narrow_gaps(notices, scene, place, diagonal);
+    if (scene.camera) add_end(notices, scene, diagonal, "the eye", scene.camera->eye);
     for (std::size_t i = 0; i < scene.point_lights.size(); ++i)
-        add_end(notices, scene, "point light " + std::to_string(i + 1), scene.point_lights[i].position);
+        add_end(notices, scene, diagonal, "point light " + std::to_string(i + 1),
+                scene.point_lights[i].position);
     for (std::size_t i = 0; i < scene.spot_lights.size(); ++i)
-        add_end(notices, scene, "spot light " + std::to_string(i + 1), scene.spot_lights[i].position);
+        add_end(notices, scene, diagonal, "spot light " + std::to_string(i + 1),
+                scene.spot_lights[i].position);
     return notices;
 }
 

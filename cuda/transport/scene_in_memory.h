@@ -21,7 +21,7 @@ public:
           contact_planes_(memory, std::span(arrays.contact_planes)),
           contact_triangles_(memory, std::span(arrays.contact_triangles)),
           eye_contacts_(arrays.eye_contacts), has_environment_(arrays.has_environment),
-          radius_(arrays.radius), diagonal_(arrays.diagonal), camera_(camera)
+          radius_(arrays.radius), camera_(camera)
     {}
 
     template <Needs needs>
@@ -41,7 +41,6 @@ public:
                 eye_contacts_,
                 has_environment_,
                 radius_,
-                diagonal_,
                 camera_};
     }
 
@@ -59,7 +58,7 @@ private:
     Buffer<std::uint32_t> contact_triangles_;
     EndContacts eye_contacts_;
     bool has_environment_;
-    float radius_, diagonal_;
+    float radius_;
     Camera camera_;
 };
 

@@ -83,8 +83,7 @@ struct SceneView {
     std::span<const std::uint32_t> contact_triangles;
     EndContacts eye_contacts;
     bool has_environment;
-    float radius;   // of a sphere around all geometry, the centre of which is the origin
-    float diagonal; // of the box around all geometry
+    float radius; // of a sphere around all geometry, the centre of which is the origin
     Camera camera;
 };
 
