@@ -104,29 +104,32 @@ Triangle in_units_of(int exponent, Triangle triangle)
     return triangle;
 }
 
-/// `a_in_file` and `b_in_file` are brought to about 1 first: an area is a product of two lengths, and
-/// its square, of four.
-bool coincide(const Triangle& a_in_file, const Triangle& b_in_file, double on, double at_least)
+/// Whether two planes are parallel enough to share more than a narrow band. `a`, `b`: their normals.
+bool nearly_parallel(const std::optional<Vec3>& a, const std::optional<Vec3>& b)
+{
+    return a && b && !(glm::length(glm::cross(*a, *b)) > 0.01);
+}
+
+/// Of triangles that are nearly parallel; `normal` is that of the first. They are brought to about 1: an
+/// area is a product of two lengths, and its square, of four.
+bool coincide(const Triangle& a_in_file, const Vec3& normal, const Triangle& b_in_file, double on,
+              double at_least)
 {
     int exponent = 0;
     std::frexp(std::max(largest_coordinate(a_in_file), largest_coordinate(b_in_file)), &exponent);
     const Triangle a = in_units_of(exponent, a_in_file);
     const Triangle b = in_units_of(exponent, b_in_file);
-    const auto normal = normal_of(a);
-    const auto other = normal_of(b);
-    // Planes at an angle cross in a band that is too narrow to matter.
-    if (!normal || !other || glm::length(glm::cross(*normal, *other)) > 0.01) return false;
     const double tolerance = std::max(on * std::max(largest_coordinate(a), largest_coordinate(b)),
                                       std::ldexp(at_least, -exponent));
     Polygon overlap(b.vertices.begin(), b.vertices.end());
     for (std::size_t i = 0; i < 3 && overlap.size() >= 3; ++i) {
         const Vec3 edge = a.vertices[(i + 1) % 3] - a.vertices[i];
-        overlap = clipped(overlap, a.vertices[i], glm::normalize(glm::cross(*normal, edge)));
+        overlap = clipped(overlap, a.vertices[i], glm::normalize(glm::cross(normal, edge)));
     }
     // Neighbours that share an edge overlap by rounding, in a strip no wider than the tolerance.
     if (overlap.size() < 3 || area_of(overlap) <= tolerance * perimeter_of(overlap)) return false;
     return std::ranges::all_of(overlap, [&](const Vec3& corner) {
-        return std::abs(glm::dot(corner - a.vertices[0], *normal)) <= tolerance;
+        return std::abs(glm::dot(corner - a.vertices[0], normal)) <= tolerance;
     });
 }
 
@@ -212,12 +215,16 @@ Coincidences coincidences(const Scene& scene, double on, bool* complete, double 
 {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
     const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
+    std::vector<std::optional<Vec3>> normals; // each is asked for by all its neighbours
+    normals.reserve(triangles);
+    for (const Triangle& triangle : scene.triangles) normals.push_back(normal_of(triangle));
     const bool all =
         for_each_overlap(grown_boxes(scene, on, at_least), [&](std::uint32_t a, std::uint32_t b) {
             if ((a < triangles) != (b < triangles)) return; // a plane and a sphere share no area
             const bool same =
                 a < triangles
-                    ? coincide(scene.triangles[a], scene.triangles[b], on, at_least)
+                    ? nearly_parallel(normals[a], normals[b]) &&
+                          coincide(scene.triangles[a], *normals[a], scene.triangles[b], on, at_least)
                     : coincide(scene.spheres[a - triangles], scene.spheres[b - triangles], on, at_least);
             if (!same) return;
             pairs.emplace_back(a, b);
