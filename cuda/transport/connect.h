@@ -18,7 +18,7 @@ namespace gpu {
 /// joined, so one cosine and a constant are all there is to their BSDF.
 struct alignas(16) LightVertex {
     Vec3 position;
-    float clearance; // negative where another surface is near (Surface::near_count)
+    float clearance; // negative where another surface is near (SurfaceContacts)
     Vec3 facing;     // unit normal on the side that the walk came from
     float onward;    // the walk's density per solid angle over the cosine, with the chance of going on
     Rgb alpha;       // BSDF included; black where the vertex can be joined to nothing
@@ -153,7 +153,8 @@ HD int light_subpath(const SceneView<needs>& scene, const PathOptions& options, 
             };
             light_image<needs, integrator>(scene, options, s, y.point, y.facing, y.own,
                                            without_last_factor(1), alpha, sink);
-            const bool is_near = scene.surfaces[y.point.primitive].near_count > 0;
+            const std::uint32_t contacts = scene.surfaces[y.point.primitive].contacts;
+            const bool is_near = scene.surface_contacts[contacts].near_count > 0;
             if constexpr (integrator == Integrator::bdpt)
                 kept[y.n - 1] = {y.point.position,
                                  is_near ? -y.point.clearance : y.point.clearance,

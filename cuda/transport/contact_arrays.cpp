@@ -101,8 +101,7 @@ void add_coincident(SceneArrays& arrays, const scenes::Scene& scene, const scene
     if (near.empty() && in_floats.empty()) return;
     const scenes::Coincidences in_doubles = scenes::coincidences(scene);
     for (std::uint32_t i = 0; i < scenes::primitive_count(here); ++i) {
-        Surface& surface = arrays.surfaces[i];
-        surface.first_coincident = static_cast<std::uint32_t>(arrays.coincident.size());
+        SurfaceContacts contacts{static_cast<std::uint32_t>(arrays.coincident.size()), 0, 0};
         const auto coincident = in_floats.of(i);
         const bool is_triangle = i < here.triangles.size();
         float largest = is_triangle ? largest_extent(arrays.triangles[i])
@@ -114,20 +113,34 @@ void add_coincident(SceneArrays& arrays, const scenes::Scene& scene, const scene
             const bool known = !std::ranges::binary_search(in_doubles.of(i), other);
             arrays.coincident.push_back({other, known ? side_of(here, i, other) : 0, largest});
         }
-        surface.coincident_count = static_cast<std::uint32_t>(coincident.size());
+        contacts.coincident_count = static_cast<std::uint32_t>(coincident.size());
         for (const std::uint32_t other : near.of(i)) {
             if (std::ranges::binary_search(coincident, other)) continue;
             const int side = side_if_apart(here, i, other);
             if (side == 0) continue;
             arrays.coincident.push_back({other, side, largest});
-            ++surface.near_count;
+            ++contacts.near_count;
         }
         if (arrays.coincident.size() > std::numeric_limits<std::uint32_t>::max())
             throw std::invalid_argument("more than 2^32 - 1 pairs of surfaces that coincide");
+        if (contacts.coincident_count + contacts.near_count == 0) continue;
+        arrays.surfaces[i].contacts = static_cast<std::uint32_t>(arrays.surface_contacts.size());
+        arrays.surface_contacts.push_back(contacts);
     }
 }
 
-/// And the normals of triangles.
+bool coincides(const SceneArrays& arrays, const Surface& surface)
+{
+    return arrays.surface_contacts[surface.contacts].coincident_count > 0;
+}
+
+/// The extent of the largest surface that coincides with this one.
+float largest_coincident(const SceneArrays& arrays, const Surface& surface)
+{
+    return arrays.coincident[arrays.surface_contacts[surface.contacts].first_coincident].largest_size;
+}
+
+/// And the normals and margins of triangles.
 void add_clearances(SceneArrays& arrays)
 {
     for (std::size_t i = 0; i < arrays.triangles.size(); ++i) {
@@ -135,10 +148,10 @@ void add_clearances(SceneArrays& arrays)
         const Vec3 e1 = v[1] - v[0];
         const Vec3 e2 = v[2] - v[0];
         Surface& surface = arrays.surfaces[i];
-        const Vec3 extent = surface.coincident_count > 0
-                                ? Vec3(arrays.coincident[surface.first_coincident].largest_size)
-                                : triangle_extent(e1, e2);
+        const Vec3 extent = coincides(arrays, surface) ? Vec3(largest_coincident(arrays, surface))
+                                                       : triangle_extent(e1, e2);
         surface.normal = unit_normal(e1, e2);
+        surface.edge_margin = edge_margin(v[0], e1, e2);
         surface.clearance = triangle_clearance(surface.normal, e1, e2, extent);
     }
     for (std::size_t i = 0; i < arrays.spheres.size(); ++i)
@@ -168,8 +181,8 @@ double end_clearance(const SceneArrays& arrays, std::uint32_t primitive, const V
     }
     const auto& v = arrays.triangles[primitive].vertices;
     const Surface& surface = arrays.surfaces[primitive];
-    const double extent = surface.coincident_count > 0
-                              ? arrays.coincident[surface.first_coincident].largest_size
+    const double extent = coincides(arrays, surface)
+                              ? largest_coincident(arrays, surface)
                               : largest(triangle_extent(v[1] - v[0], v[2] - v[0]));
     const double farthest = std::max({largest(v[0]), largest(v[1]), largest(v[2])});
     return unit_roundoff * (rounded + root_3 * farthest + 8 * root_3 * extent);

@@ -46,7 +46,7 @@ HD inline std::uint32_t meeting_rank(const Material& material, bool from_front)
 template <Needs needs>
 SELDOM HD Hit first_of_several(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
 {
-    const Surface& surface = scene.surfaces[hit.primitive];
+    const SurfaceContacts& contacts = scene.surface_contacts[scene.surfaces[hit.primitive].contacts];
     const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
     const auto from_front = [&](const Hit& h) {
         if (h.primitive >= triangles)
@@ -63,8 +63,8 @@ SELDOM HD Hit first_of_several(const SceneView<needs>& scene, const Ray& ray, co
     Hit first = hit;
     int first_depth = 0; // along the ray, as against `hit`: before it, level with it, behind it
     std::uint32_t first_rank = rank(hit);
-    for (std::uint32_t i = 0; i < surface.coincident_count; ++i) {
-        const Coincident& other = scene.coincident[surface.first_coincident + i];
+    for (std::uint32_t i = 0; i < contacts.coincident_count; ++i) {
+        const Coincident& other = scene.coincident[contacts.first_coincident + i];
         const int depth = front ? -other.side : other.side;
         Hit candidate{hit.t, other.primitive, 0, 0}; // a sphere is met everywhere
         if (other.primitive < triangles &&
@@ -87,7 +87,7 @@ SELDOM HD Hit first_of_several(const SceneView<needs>& scene, const Ray& ray, co
 template <Needs needs>
 HD Hit first_of_coincident(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
 {
-    return scene.surfaces[hit.primitive].coincident_count == 0 ? hit : first_of_several(scene, ray, hit);
+    return scene.surfaces[hit.primitive].contacts == 0 ? hit : first_of_several(scene, ray, hit);
 }
 
 /// See sees_first.
@@ -95,16 +95,16 @@ template <Needs needs>
 SELDOM HD bool sees_first_of_several(const SceneView<needs>& scene, const SurfacePoint& point,
                                      const Vec3& towards)
 {
-    const Surface& surface = scene.surfaces[point.primitive];
+    const SurfaceContacts& contacts = scene.surface_contacts[scene.surfaces[point.primitive].contacts];
     // From away, so that t is not near 0; but no further than the surfaces are large.
-    const float away = scene.coincident[surface.first_coincident].largest_size;
+    const float away = scene.coincident[contacts.first_coincident].largest_size;
     const Ray ray{point.position + away * towards, std::numeric_limits<float>::infinity(), -towards};
     const ShearedRay sheared(ray);
     const int from = glm::dot(towards, point.normal) < 0.0f ? -1 : 1;
     const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
-    for (std::uint32_t i = 0; i < surface.near_count; ++i) {
+    for (std::uint32_t i = 0; i < contacts.near_count; ++i) {
         const Coincident& other =
-            scene.coincident[surface.first_coincident + surface.coincident_count + i];
+            scene.coincident[contacts.first_coincident + contacts.coincident_count + i];
         Hit hit{};
         if (other.side == from && (other.primitive >= triangles || // a sphere is met everywhere
                                    intersect_triangle(sheared, scene.triangles[other.primitive],
@@ -120,9 +120,7 @@ SELDOM HD bool sees_first_of_several(const SceneView<needs>& scene, const Surfac
 template <Needs needs>
 HD bool sees_first(const SceneView<needs>& scene, const SurfacePoint& point, const Vec3& towards)
 {
-    const Surface& surface = scene.surfaces[point.primitive];
-    return surface.coincident_count + surface.near_count == 0 ||
-           sees_first_of_several(scene, point, towards);
+    return scene.surfaces[point.primitive].contacts == 0 || sees_first_of_several(scene, point, towards);
 }
 
 } // namespace gpu

@@ -24,6 +24,7 @@ struct SceneArrays {
     std::vector<Emitter> emitters;
     std::vector<float> cumulative; // none if no emitter has power (emitter_choice.h)
     std::vector<Light> lights;     // by emitter
+    std::vector<SurfaceContacts> surface_contacts = {{}};
     std::vector<Coincident> coincident;
     std::vector<ContactPlane> contact_planes;
     std::vector<std::uint32_t> contact_triangles;

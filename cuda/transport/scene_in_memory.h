@@ -17,6 +17,7 @@ public:
           surfaces_(memory, std::span(arrays.surfaces)), materials_(memory, std::span(arrays.materials)),
           emitters_(memory, std::span(arrays.emitters)),
           cumulative_(memory, std::span(arrays.cumulative)), lights_(memory, std::span(arrays.lights)),
+          surface_contacts_(memory, std::span(arrays.surface_contacts)),
           coincident_(memory, std::span(arrays.coincident)),
           contact_planes_(memory, std::span(arrays.contact_planes)),
           contact_triangles_(memory, std::span(arrays.contact_triangles)),
@@ -35,6 +36,7 @@ public:
                 emitters_.all(),
                 cumulative_.all(),
                 lights_.all(),
+                surface_contacts_.all(),
                 coincident_.all(),
                 contact_planes_.all(),
                 contact_triangles_.all(),
@@ -53,6 +55,7 @@ private:
     Buffer<Emitter> emitters_;
     Buffer<float> cumulative_;
     Buffer<Light> lights_;
+    Buffer<SurfaceContacts> surface_contacts_;
     Buffer<Coincident> coincident_;
     Buffer<ContactPlane> contact_planes_;
     Buffer<std::uint32_t> contact_triangles_;

@@ -49,15 +49,22 @@ struct Light {
     EndContacts contacts = {}; // of point and spot
 };
 
-/// What shading must know of a primitive.
-struct Surface {
+/// What shading must know of a primitive. Read at every vertex of a walk: within one line of the cache.
+struct alignas(32) Surface {
     std::uint32_t material;
-    std::uint32_t emitter; // or no_emitter
-    float clearance = 0;   // triangle_clearance or sphere_clearance
-    Vec3 normal = {};      // of a triangle, unit length
-    // Ranges of SceneView::coincident: surfaces that coincide with this one as far as floats can tell,
-    // and after them those so near that a segment which ends here may end beyond them.
-    std::uint32_t first_coincident = 0, coincident_count = 0, near_count = 0;
+    std::uint32_t emitter;      // or no_emitter
+    float clearance = 0;        // triangle_clearance or sphere_clearance
+    float edge_margin = 0;      // of a triangle
+    Vec3 normal = {};           // of a triangle, unit length
+    std::uint32_t contacts = 0; // of SceneView::surface_contacts
+};
+static_assert(sizeof(Surface) == 32);
+
+/// Ranges of SceneView::coincident: surfaces that coincide with this one as far as floats can tell, and
+/// after them those so near that a segment which ends here may end beyond them. Number 0 is that of most
+/// surfaces, which have neither.
+struct SurfaceContacts {
+    std::uint32_t first_coincident, coincident_count, near_count;
 };
 
 /// A surface that coincides with another one, or nearly does.
@@ -78,6 +85,7 @@ struct SceneView {
     std::span<const Emitter> emitters; // the environment is the last
     std::span<const float> cumulative; // sums of their probabilities, up to 1; none if all are 0
     std::span<const Light> lights;     // by emitter: its light, if it is one
+    std::span<const SurfaceContacts> surface_contacts;
     std::span<const Coincident> coincident;
     std::span<const ContactPlane> contact_planes;
     std::span<const std::uint32_t> contact_triangles;

@@ -15,18 +15,21 @@ HD inline Vec3 unit_normal(const Vec3& e1, const Vec3& e2)
     return size > 0.0f ? glm::normalize(across / size) : Vec3(0.0f, 0.0f, 1.0f);
 }
 
-/// The point of triangle number `triangle` with weights b1, b2 of its second and third vertex.
+/// The point of triangle number `triangle` with weights b1, b2 of its second and third vertex; moved off
+/// the edges by a few roundings (clearance.h, step 8).
 template <Needs needs>
 HD SurfacePoint triangle_point(const SceneView<needs>& scene, std::uint32_t triangle, float b1, float b2)
 {
     const auto& v = scene.triangles[triangle].vertices;
     const Vec3 e1 = v[1] - v[0];
     const Vec3 e2 = v[2] - v[0];
+    const Surface& surface = scene.surfaces[triangle];
+    move_off_edges(surface.edge_margin, b1, b2);
     SurfacePoint point{};
     point.primitive = triangle;
     point.position = v[0] + (b1 * e1 + b2 * e2);
-    point.normal = scene.surfaces[triangle].normal;
-    point.clearance = clearance_at(point.position, point.normal, scene.surfaces[triangle].clearance);
+    point.normal = surface.normal;
+    point.clearance = clearance_at(point.position, point.normal, surface.clearance);
     return point;
 }
 

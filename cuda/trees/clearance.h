@@ -33,6 +33,16 @@
 //    A neighbour in the same plane needs no more than the triangle itself where they share an edge: near
 //    that edge the place of the neighbour's third vertex has no weight.
 //
+// 8. Two triangles that meet at an edge. A point in that edge may be rounded to the far side of the
+//    second one, and a step along the normal of the first does not bring it back. So a point is kept off
+//    the edges of its triangle: no vertex has a weight less than m, and the point is m h from an edge
+//    over which the triangle has the height h. The second triangle needs its own clearance of that, at
+//    most 21 u a + 3.5 u |p| by steps 1 and 3. Let L be the longest edge, and h >= L / 2, as of half a
+//    rectangle that is not long. Then m = u (64 + 8 |p| / L) is enough for a second triangle that is not
+//    larger than the first, and leaves 11 u L for angles of less than 90 degrees.
+//    It moves a point by at most 2 m L, and only in a strip of this width. Where L is so small that
+//    floats hardly place the vertices, m is kept to 1/8.
+//
 // What no distance can promise: to which side a direction points that is closer to the surface than n's
 // own error, which for a normal computed in single precision is an angle of some 4 u times the ratio of
 // the triangle's longest edge to its smallest height.
@@ -63,6 +73,30 @@ HD inline float triangle_clearance(const Vec3& normal, const Vec3& e1, const Vec
 HD inline float sphere_clearance(float radius)
 {
     return 56 * unit_roundoff * radius;
+}
+
+/// The least weight of a vertex in a point of the triangle from v0 with these edges: step 8.
+inline float edge_margin(const Vec3& v0, const Vec3& e1, const Vec3& e2)
+{
+    const float longest = glm::max(glm::max(glm::length(e1), glm::length(e2)), glm::length(e2 - e1));
+    const float farthest =
+        glm::max(glm::length(v0), glm::max(glm::length(v0 + e1), glm::length(v0 + e2)));
+    const float margin = unit_roundoff * (64.0f + 8.0f * farthest / longest);
+    return margin < 0.125f ? margin : 0.125f; // also where all edges are 0
+}
+
+/// Moves the point with weights b1 and b2 of the second and third vertex off the edges: no weight is
+/// less than `margin`, but for the factor by which their sum becomes 1 again.
+HD inline void move_off_edges(float margin, float& b1, float& b2)
+{
+    float b0 = 1.0f - b1 - b2;
+    if (glm::min(b0, glm::min(b1, b2)) >= margin) return;
+    b0 = glm::max(b0, margin);
+    b1 = glm::max(b1, margin);
+    b2 = glm::max(b2, margin);
+    const float to_unit = 1.0f / (b0 + b1 + b2);
+    b1 *= to_unit;
+    b2 *= to_unit;
 }
 
 /// How far from its surface, along the normal, rays must begin at `position`. `own`: the clearance of

@@ -123,7 +123,7 @@ TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
         const scenes::Scene scene = cuda_test::touching_scene(Touching::lamp_in_wall, 2, gap);
         const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
         // The lamp's triangles are the last; the wall that they coincide with faces as they do.
-        const gpu::Surface& lamp = arrays.surfaces.back();
+        const gpu::SurfaceContacts& lamp = arrays.surface_contacts[arrays.surfaces.back().contacts];
         ASSERT_GT(lamp.coincident_count, 0u);
         for (std::uint32_t i = 0; i < lamp.coincident_count; ++i)
             EXPECT_EQ(arrays.coincident[lamp.first_coincident + i].side, gap == 0  ? 0
@@ -146,8 +146,8 @@ TEST(CoincidentSurfaces, AreFoundHoweverSmall)
         const scenes::Triangle small{{at, at + Vec3(size, 0, 0), at + Vec3(0, size, 0)}, 0};
         scene.triangles = {{{Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0)}, 0}, small, small};
         const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
-        EXPECT_EQ(arrays.surfaces[1].coincident_count, 1u) << size;
-        EXPECT_EQ(arrays.surfaces[2].coincident_count, 1u) << size;
+        for (const std::size_t i : {1, 2})
+            EXPECT_EQ(arrays.surface_contacts[arrays.surfaces[i].contacts].coincident_count, 1u) << size;
     }
 }
 

@@ -50,7 +50,7 @@ void require_position(const ref::World& world, const gpu::Ray& ray, double slack
     if (point.primitive < world.scene.triangles.size()) {
         const auto& v = world.scene.triangles[point.primitive].vertices;
         const double edges = glm::length(v[1] - v[0]) + glm::length(v[2] - v[0]);
-        across += 3 * verdict.margin * edges;
+        across += 3 * verdict.margin * edges + moved_off_edges(v, Vec3(point.position));
         size += edges;
     } else {
         const auto& sphere = world.scene.spheres[point.primitive - world.scene.triangles.size()];

@@ -67,6 +67,9 @@ void require_on_surface(const ref::World& world, const gpu::SurfacePoint& point)
 /// Bound on the error of the normal of a primitive, where it is computed from the primitive itself.
 double normal_error(const ref::World& world, const ref::SurfacePoint& point);
 
+/// How far the floats' point of an emitter may be from `drawn`, the reference's by the same numbers.
+double drawn_point_error(const ref::World& world, const ref::SurfacePoint& drawn);
+
 /// A walk as the floats went it, in double.
 struct FollowedWalk {
     std::vector<ref::Vertex> vertices; // v_0, v_1, ...: alpha is the reference's

@@ -10,23 +10,8 @@
 
 namespace cuda_test {
 
-namespace {
-
 using ref::Vec3;
 using ref::Vertex;
-
-/// How far the floats' point of an emitter may be from the reference's, which draws it by the same
-/// numbers.
-double drawn_point_error(const ref::World& world, const ref::SurfacePoint& point)
-{
-    const std::size_t triangles = world.scene.triangles.size();
-    if (point.primitive < triangles)
-        return triangle_point_error(world.scene.triangles[point.primitive].vertices, point.position);
-    const double radius = world.scene.spheres[point.primitive - triangles].radius;
-    return 21 * roundoff * radius + 2 * roundoff * glm::length(point.position);
-}
-
-} // namespace
 
 std::optional<Judged> PathJudge::next_event(std::size_t t, bool found) const
 {

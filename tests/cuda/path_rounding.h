@@ -94,6 +94,24 @@ inline double triangle_point_error(const std::array<ref::Vec3, 3>& v, const ref:
     return roundoff * (4 * (glm::length(v[1] - v[0]) + glm::length(v[2] - v[0])) + 2 * glm::length(p));
 }
 
+/// How far a point of a triangle may be moved off the edges (cuda/trees/clearance.h, step 8): nowhere
+/// but in a strip along them. `p`: where it is before, or after.
+inline double moved_off_edges(const std::array<ref::Vec3, 3>& v, const ref::Vec3& p)
+{
+    const ref::Vec3 e1 = v[1] - v[0];
+    const ref::Vec3 e2 = v[2] - v[0];
+    const double longest = std::max({glm::length(e1), glm::length(e2), glm::length(e2 - e1)});
+    const double farthest = std::max({glm::length(v[0]), glm::length(v[1]), glm::length(v[2])});
+    const double margin = std::min(0.125, roundoff * (64 + 8 * farthest / longest));
+    const ref::Vec3 normal = glm::cross(e1, e2);
+    const double b1 = glm::dot(glm::cross(p - v[0], e2), normal) / glm::dot(normal, normal);
+    const double b2 = glm::dot(glm::cross(e1, p - v[0]), normal) / glm::dot(normal, normal);
+    // The weights are known to the point's own error over the least height.
+    const double error = triangle_point_error(v, p) * longest / glm::length(normal);
+    if (std::min({1 - b1 - b2, b1, b2}) > 1.01 * margin + error) return 0;
+    return 2.02 * margin * longest;
+}
+
 /// Of a point of a sphere, as a distance from the sphere [6].
 inline double sphere_point_error(double radius, const ref::Vec3& p)
 {

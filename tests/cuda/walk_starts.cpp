@@ -91,6 +91,18 @@ Range clearance_of(const ref::World& world, std::uint32_t primitive, const Vec3&
     return {0.999 * roundoff * least, 1.001 * roundoff * most};
 }
 
+double drawn_point_error(const ref::World& world, const ref::SurfacePoint& drawn)
+{
+    const std::size_t triangles = world.scene.triangles.size();
+    if (drawn.primitive < triangles) {
+        const auto& v = world.scene.triangles[drawn.primitive].vertices;
+        return triangle_point_error(v, drawn.position) + moved_off_edges(v, drawn.position);
+    }
+    // The direction from the centre, as on the unit sphere (path_rounding.h, 3).
+    return (13 + 8) * roundoff * world.scene.spheres[drawn.primitive - triangles].radius +
+           2 * roundoff * glm::length(drawn.position);
+}
+
 namespace {
 
 /// The end of y_0 that is a surface: drawn as the reference does, but for rounding.
@@ -99,13 +111,7 @@ void require_drawn(const ref::World& world, const gpu::SurfacePoint& point,
 {
     require(point.primitive == drawn.primitive, "the surface that light comes from");
     require_on_surface(world, point);
-    const std::size_t triangles = world.scene.triangles.size();
-    const double error =
-        point.primitive < triangles
-            ? triangle_point_error(world.scene.triangles[point.primitive].vertices, drawn.position)
-            // The direction from the centre, as on the unit sphere (path_rounding.h, 3).
-            : (13 + 8) * roundoff * world.scene.spheres[point.primitive - triangles].radius +
-                  2 * roundoff * glm::length(drawn.position);
+    const double error = drawn_point_error(world, drawn);
     require(glm::length(Vec3(point.position) - drawn.position) <= error,
             "the point that light comes from");
 }
