@@ -11,9 +11,9 @@
 #include "cli/idle_options.h"
 #include "cli/output_files.h"
 #include "cli/scene_input.h"
-#include "golden/atomic_file.h"
-#include "golden/png.h"
-#include "golden/write_image.h"
+#include "images/atomic_file.h"
+#include "images/png.h"
+#include "images/write_image.h"
 #include "ref/trees/bvh.h"
 #include "ref/trees/geometry.h"
 #include "ref/trees/sah.h"
@@ -93,7 +93,7 @@ std::string figure_of(const scenes::Scene& scene, const Options& options)
     return radix_tree_figure(sorted, tree.primitives, 3 * bits_per_axis);
 }
 
-golden::Image picture_of(const ref::Geometry& geometry, const Options& options, const Size& size)
+images::Image picture_of(const ref::Geometry& geometry, const Options& options, const Size& size)
 {
     constexpr std::size_t pieces = 16;
     constexpr double most_visits = 64;
@@ -110,13 +110,13 @@ ExitStatus bvh(const Options& options)
     expect_different_files({{"--picture", options.picture}, {"--tree", options.figure}},
                            {{"the scene", options.scene}});
     for (const std::string& path : {options.picture, options.figure})
-        if (!path.empty()) golden::check_place(path);
+        if (!path.empty()) images::check_place(path);
     const scenes::Scene scene = load_triangles(options.scene, options.frame, options.quiet);
 
-    if (!options.figure.empty()) golden::write_atomically(options.figure, figure_of(scene, options));
+    if (!options.figure.empty()) images::write_atomically(options.figure, figure_of(scene, options));
     if (!options.picture.empty()) {
         const ref::Geometry geometry(scene, chosen(options).front().builder);
-        golden::write_png(options.picture, picture_of(geometry, options, size));
+        images::write_png(options.picture, picture_of(geometry, options, size));
     }
     if (!options.device.empty()) {
         const nlohmann::json stages =

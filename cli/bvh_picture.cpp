@@ -16,11 +16,11 @@ namespace {
 using ref::Vec3;
 
 /// Hues around the circle in golden-angle steps: neighbours differ. Dark enough for a white ground.
-golden::Rgb color_of(std::size_t number)
+images::Rgb color_of(std::size_t number)
 {
     const double hue = 2.399963 * static_cast<double>(number);
     const auto channel = [&](double shift) { return 0.35 + 0.35 * std::cos(hue - shift); };
-    return golden::Rgb(channel(0), channel(2.094395), channel(4.188790));
+    return images::Rgb(channel(0), channel(2.094395), channel(4.188790));
 }
 
 /// The boxes at `level`, and of leaves that lie above it.
@@ -66,7 +66,7 @@ std::optional<Projected> project(const scenes::Camera& camera, int width, int he
 
 /// A picture and, per pixel, how far along the viewing direction the scene is.
 struct Canvas {
-    golden::Image image;
+    images::Image image;
     std::vector<double> depth;
 };
 
@@ -85,10 +85,10 @@ template <typename Albedo>
 Canvas shade(const ref::Geometry& geometry, int width, int height, Albedo albedo)
 {
     const scenes::Camera& camera = *geometry.scene().camera;
-    Canvas canvas{golden::Image(width, height), {}};
+    Canvas canvas{images::Image(width, height), {}};
     canvas.depth.assign(canvas.image.pixels.size(), std::numeric_limits<double>::infinity());
     for_each_pixel(camera, width, height, [&](std::size_t pixel, const ref::Ray& ray) {
-        canvas.image.pixels[pixel] = golden::Rgb(0.9);
+        canvas.image.pixels[pixel] = images::Rgb(0.9);
         const auto hit = intersect(geometry, ray);
         if (!hit) return;
         const double cosine =
@@ -101,7 +101,7 @@ Canvas shade(const ref::Geometry& geometry, int width, int height, Albedo albedo
 
 /// Draws the segment from `a` to `b` in steps of less than a pixel.
 void draw_line(Canvas& canvas, const scenes::Camera& camera, const Vec3& a, const Vec3& b,
-               const golden::Rgb& color)
+               const images::Rgb& color)
 {
     const int width = canvas.image.width;
     const int height = canvas.image.height;
@@ -129,13 +129,13 @@ void draw_line(Canvas& canvas, const scenes::Camera& camera, const Vec3& a, cons
 
 } // namespace
 
-golden::Image draw_boxes(const ref::Geometry& geometry, int level, int width, int height)
+images::Image draw_boxes(const ref::Geometry& geometry, int level, int width, int height)
 {
     const scenes::Camera& camera = *geometry.scene().camera;
-    Canvas canvas = shade(geometry, width, height, [](std::uint32_t) { return golden::Rgb(0.55); });
+    Canvas canvas = shade(geometry, width, height, [](std::uint32_t) { return images::Rgb(0.55); });
     std::size_t number = 0;
     for (const ref::Aabb& box : boxes_at(geometry.tree(), level)) {
-        const golden::Rgb color = color_of(number++);
+        const images::Rgb color = color_of(number++);
         const auto corner = [&](int bits) {
             return Vec3((bits & 1) != 0 ? box.upper.x : box.lower.x,
                         (bits & 2) != 0 ? box.upper.y : box.lower.y,
@@ -149,7 +149,7 @@ golden::Image draw_boxes(const ref::Geometry& geometry, int level, int width, in
     return canvas.image;
 }
 
-golden::Image draw_order(const ref::Geometry& geometry, std::size_t pieces, int width, int height)
+images::Image draw_order(const ref::Geometry& geometry, std::size_t pieces, int width, int height)
 {
     const std::vector<std::uint32_t>& order = geometry.tree().primitives;
     std::vector<std::size_t> piece(order.size());
@@ -160,14 +160,14 @@ golden::Image draw_order(const ref::Geometry& geometry, std::size_t pieces, int 
         .image;
 }
 
-golden::Image draw_visits(const ref::Geometry& geometry, double most, int width, int height)
+images::Image draw_visits(const ref::Geometry& geometry, double most, int width, int height)
 {
-    golden::Image image(width, height);
+    images::Image image(width, height);
     for_each_pixel(*geometry.scene().camera, width, height, [&](std::size_t pixel, const ref::Ray& ray) {
         ref::Work work;
         intersect(geometry, ray, &work);
         const double x = 3 * static_cast<double>(work.nodes) / most;
-        image.pixels[pixel] = glm::clamp(golden::Rgb(x, x - 1, x - 2), 0.0, 1.0);
+        image.pixels[pixel] = glm::clamp(images::Rgb(x, x - 1, x - 2), 0.0, 1.0);
     });
     return image;
 }

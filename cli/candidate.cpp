@@ -2,12 +2,12 @@
 
 #include "cli/render_options.h"
 #include "cli/scene_candidate.h"
-#include "golden/file_ending.h"
-#include "golden/image_error.h"
 #include "golden/independence.h"
-#include "golden/non_finite.h"
-#include "golden/pfm.h"
 #include "golden/reason.h"
+#include "images/file_ending.h"
+#include "images/image_error.h"
+#include "images/non_finite.h"
+#include "images/pfm.h"
 
 #include <algorithm>
 #include <charconv>
@@ -25,31 +25,31 @@ namespace {
 
 constexpr std::string_view batch_prefix = "batch."; // of the layers that render --keep-batches writes
 
-golden::ExrPicture read_picture(const fs::path& path, const std::string& layer)
+images::ExrPicture read_picture(const fs::path& path, const std::string& layer)
 {
-    golden::ExrPicture picture;
-    if (golden::has_ending(path, ".exr"))
-        picture = golden::read_exr(path, layer);
-    else if (golden::has_ending(path, ".pfm") && !layer.empty())
-        throw golden::ImageError(path, "has no layers (--layer " + layer + ")");
-    else if (golden::has_ending(path, ".pfm"))
-        picture.mean = golden::read_pfm(path);
+    images::ExrPicture picture;
+    if (images::has_ending(path, ".exr"))
+        picture = images::read_exr(path, layer);
+    else if (images::has_ending(path, ".pfm") && !layer.empty())
+        throw images::ImageError(path, "has no layers (--layer " + layer + ")");
+    else if (images::has_ending(path, ".pfm"))
+        picture.mean = images::read_pfm(path);
     else
-        throw golden::ImageError(path, "is no .exr, .pfm or .dae");
-    if (const auto fault = golden::say_non_finite(picture.mean)) throw golden::ImageError(path, *fault);
+        throw images::ImageError(path, "is no .exr, .pfm or .dae");
+    if (const auto fault = images::say_non_finite(picture.mean)) throw images::ImageError(path, *fault);
     return picture;
 }
 
-void expect_size(const fs::path& path, const golden::Image& image, const golden::Golden& golden)
+void expect_size(const fs::path& path, const images::Image& image, const golden::Golden& golden)
 {
     if (image.width != golden.mean.width || image.height != golden.mean.height)
-        throw golden::ImageError(path, "has " + std::to_string(image.width) + "x" +
+        throw images::ImageError(path, "has " + std::to_string(image.width) + "x" +
                                            std::to_string(image.height) + " pixels, the golden " +
                                            std::to_string(golden.mean.width) + "x" +
                                            std::to_string(golden.mean.height));
 }
 
-double samples_of(const std::string& file, const golden::Metadata& metadata,
+double samples_of(const std::string& file, const images::Metadata& metadata,
                   const CandidateOptions& options)
 {
     if (options.samples) return *options.samples;
@@ -62,19 +62,19 @@ double samples_of(const std::string& file, const golden::Metadata& metadata,
 }
 
 /// golden::check_comparable, with an error that names the file.
-void check_file(const golden::Golden& golden, const std::string& file, const golden::Metadata& metadata,
+void check_file(const golden::Golden& golden, const std::string& file, const images::Metadata& metadata,
                 golden::Method method)
 {
     try {
         golden::check_comparable(golden, metadata, method);
     } catch (const std::invalid_argument& error) {
-        throw golden::ImageError(file, error.what());
+        throw images::ImageError(file, error.what());
     }
 }
 
 /// Throws if two of the pictures, which are called `names`, share their noise.
 void expect_independent_pictures(const golden::Golden& golden,
-                                 const std::vector<golden::Image>& pictures,
+                                 const std::vector<images::Image>& pictures,
                                  const std::vector<std::string>& names)
 {
     if (const auto shared = golden::shared_noise(golden, pictures))
@@ -85,15 +85,15 @@ void expect_independent_pictures(const golden::Golden& golden,
 }
 
 /// The batches of one file, as layers.
-Judged judge_batches(const golden::Golden& golden, const std::string& file, golden::ExrPicture picture)
+Judged judge_batches(const golden::Golden& golden, const std::string& file, images::ExrPicture picture)
 {
     golden::Candidate candidate(golden.functionals);
-    std::vector<golden::Image> batches;
+    std::vector<images::Image> batches;
     std::vector<std::string> names;
     for (const auto& [name, layer] : picture.layers) {
         if (!name.starts_with(batch_prefix)) continue;
-        if (const auto fault = golden::say_non_finite(layer))
-            throw golden::ImageError(file, "layer " + name + ": " + *fault);
+        if (const auto fault = images::say_non_finite(layer))
+            throw images::ImageError(file, "layer " + name + ": " + *fault);
         batches.push_back(layer);
         names.push_back(names.empty() ? file + ": layers " + name : name);
         candidate.add_batch(layer);
@@ -112,13 +112,13 @@ Judged judge_batches(const golden::Golden& golden, const std::string& file, gold
 
 /// Several pictures, `first` the first of them.
 Judged judge_pictures(const golden::Golden& golden, const std::vector<std::string>& files,
-                      golden::ExrPicture first, const std::string& layer)
+                      images::ExrPicture first, const std::string& layer)
 {
-    std::vector<golden::Image> pictures = {first.mean};
+    std::vector<images::Image> pictures = {first.mean};
     std::map<std::string, std::string> seeds; // and the file that has it
-    golden::Metadata metadata = first.metadata;
+    images::Metadata metadata = first.metadata;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        golden::ExrPicture picture = i == 0 ? golden::ExrPicture{} : read_picture(files[i], layer);
+        images::ExrPicture picture = i == 0 ? images::ExrPicture{} : read_picture(files[i], layer);
         if (i > 0) {
             expect_size(files[i], picture.mean, golden);
             pictures.push_back(std::move(picture.mean));
@@ -133,12 +133,12 @@ Judged judge_pictures(const golden::Golden& golden, const std::vector<std::strin
     }
     expect_independent_pictures(golden, pictures, files);
     golden::Comparison comparison = golden::compare_pictures(golden, pictures);
-    golden::Film film(golden.mean.width, golden.mean.height);
-    for (const golden::Image& picture : pictures) film.add_batch(picture);
+    images::Film film(golden.mean.width, golden.mean.height);
+    for (const images::Image& picture : pictures) film.add_batch(picture);
     return {std::move(comparison), film.mean(), std::move(first.metadata), std::move(first.layers)};
 }
 
-Judged judge_picture(const golden::Golden& golden, const std::string& file, golden::ExrPicture picture,
+Judged judge_picture(const golden::Golden& golden, const std::string& file, images::ExrPicture picture,
                      const CandidateOptions& options)
 {
     check_file(golden, file, picture.metadata, golden::Method::picture);
@@ -151,7 +151,7 @@ Judged judge_picture(const golden::Golden& golden, const std::string& file, gold
     try {
         comparison = golden::compare_picture(golden, picture.mean, samples);
     } catch (const std::invalid_argument& error) {
-        throw golden::ImageError(file, error.what());
+        throw images::ImageError(file, error.what());
     }
     return {std::move(comparison), std::move(picture.mean), std::move(picture.metadata),
             std::move(picture.layers)};
@@ -162,7 +162,7 @@ Judged judge_picture(const golden::Golden& golden, const std::string& file, gold
 Judged judge(const golden::Golden& golden, const std::vector<std::string>& files,
              const CandidateOptions& options)
 {
-    const bool scene = golden::has_ending(files.front(), ".dae");
+    const bool scene = images::has_ending(files.front(), ".dae");
     if (!scene && (!options.integrator.empty() || options.seed || options.device != "ref"))
         throw std::invalid_argument(
             "--integrator, --device and --seed are for a scene that is rendered here");
@@ -173,7 +173,7 @@ Judged judge(const golden::Golden& golden, const std::vector<std::string>& files
         throw std::invalid_argument("--samples is for a single picture or a scene");
     if (scene) return judge_scene(golden, files.front(), options);
 
-    golden::ExrPicture first = read_picture(files.front(), options.layer);
+    images::ExrPicture first = read_picture(files.front(), options.layer);
     expect_size(files.front(), first.mean, golden);
     const auto batches = std::count_if(first.layers.begin(), first.layers.end(), [](const auto& layer) {
         return layer.first.starts_with(batch_prefix);

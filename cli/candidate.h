@@ -3,7 +3,7 @@
 // What `plumbline compare` is given, made comparable with a golden.
 
 #include "golden/compare.h"
-#include "golden/exr.h"
+#include "images/exr.h"
 
 #include <cstdint>
 #include <optional>
@@ -25,14 +25,14 @@ struct CandidateOptions {
 
 struct Judged {
     golden::Comparison comparison;
-    golden::Image mean;
-    golden::Metadata metadata;
-    golden::Layers strategies;
+    images::Image mean;
+    images::Metadata metadata;
+    images::Layers strategies;
 };
 
 /// Chooses the method by what the files are: a scene is rendered in stages; a picture of ours with its
 /// batches (`render --keep-batches`) and several pictures are compared by these; a single picture by the
-/// noise that its number of samples lets expect. Throws golden::ImageError, scenes::SceneError and
+/// noise that its number of samples lets expect. Throws images::ImageError, scenes::SceneError and
 /// std::invalid_argument, which names the file, for what cannot be read or compared, pictures that are
 /// not independent among it; Interrupted if a render was.
 Judged judge(const golden::Golden& golden, const std::vector<std::string>& files,

@@ -5,9 +5,9 @@
 #include "cli/interrupt.h"
 #include "cli/output_files.h"
 #include "cli/scene_input.h"
-#include "golden/atomic_file.h"
 #include "golden/reason.h"
 #include "golden/report.h"
+#include "images/atomic_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +88,7 @@ ExitStatus compare_command(const CompareCommand& options)
     std::vector<NamedFile> compared;
     for (const std::string& file : options.pictures) compared.push_back({"the picture", file});
     expect_different_files({{"--report", options.report}}, compared);
-    if (!options.report.empty()) golden::check_place(options.report);
+    if (!options.report.empty()) images::check_place(options.report);
     const golden::Golden golden = golden::read_golden(options.pictures.back());
     catch_interrupts();
     const std::vector<std::string> files(options.pictures.begin(), options.pictures.end() - 1);

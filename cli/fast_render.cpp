@@ -18,23 +18,23 @@ const std::map<std::string, gpu::Integrator> fast_integrators = {
 
 } // namespace
 
-void LayerSums::add(const golden::Strategies& batch, std::uint32_t samples)
+void LayerSums::add(const images::Strategies& batch, std::uint32_t samples)
 {
     for (const auto& [strategy, image] : batch) {
-        golden::Image& sum = sums_.try_emplace(strategy, image.width, image.height).first->second;
+        images::Image& sum = sums_.try_emplace(strategy, image.width, image.height).first->second;
         for (std::size_t i = 0; i < image.pixels.size(); ++i) sum.pixels[i] += image.pixels[i];
     }
     samples_ += samples;
 }
 
-golden::Strategies LayerSums::means() const
+images::Strategies LayerSums::means() const
 {
-    golden::Strategies result;
+    images::Strategies result;
     for (const auto& [strategy, sum] : sums_) {
         const bool dark =
-            std::ranges::all_of(sum.pixels, [](const auto& p) { return p == golden::Rgb(0.0); });
+            std::ranges::all_of(sum.pixels, [](const auto& p) { return p == images::Rgb(0.0); });
         if (dark) continue;
-        golden::Image& mean = result.emplace(strategy, sum).first->second;
+        images::Image& mean = result.emplace(strategy, sum).first->second;
         for (auto& pixel : mean.pixels) pixel /= static_cast<double>(samples_);
     }
     return result;
@@ -65,7 +65,7 @@ std::unique_ptr<gpu::Renderer> fast_renderer(const RenderCommand& options, const
     }
 }
 
-std::optional<golden::Image> render_batch(gpu::Renderer& renderer, const RenderCommand& options,
+std::optional<images::Image> render_batch(gpu::Renderer& renderer, const RenderCommand& options,
                                           std::uint64_t number, const ref::Monitor& monitor,
                                           LayerSums* layers)
 {
@@ -79,13 +79,13 @@ std::optional<golden::Image> render_batch(gpu::Renderer& renderer, const RenderC
     if (layers != nullptr) layers->add(batch->layers, options.batch_size);
     if (batch->dropped.count > 0) {
         if (!monitor.dropped)
-            throw std::runtime_error(golden::describe(batch->dropped, batch->mean.width));
+            throw std::runtime_error(images::describe(batch->dropped, batch->mean.width));
         monitor.dropped(batch->dropped);
     }
     return std::move(batch->mean);
 }
 
-bool render(gpu::Renderer& renderer, const RenderCommand& options, golden::Film& film,
+bool render(gpu::Renderer& renderer, const RenderCommand& options, images::Film& film,
             const ref::Monitor& monitor, LayerSums& layers)
 {
     while (film.batches() < options.samples / options.batch_size) {

@@ -3,7 +3,7 @@
 // `plumbline render --device host|cuda`: the fast path where the reference would render.
 
 #include "cli/render_options.h"
-#include "golden/strategy_sheet.h"
+#include "images/strategy_sheet.h"
 
 #include <cstdint>
 #include <memory>
@@ -18,12 +18,12 @@ namespace cli {
 /// Sums of layers over batches.
 class LayerSums {
 public:
-    void add(const golden::Strategies& batch, std::uint32_t samples);
+    void add(const images::Strategies& batch, std::uint32_t samples);
     /// The means of those strategies that found anything at all.
-    [[nodiscard]] golden::Strategies means() const;
+    [[nodiscard]] images::Strategies means() const;
 
 private:
-    golden::Strategies sums_;
+    images::Strategies sums_;
     std::uint64_t samples_ = 0;
 };
 
@@ -33,12 +33,12 @@ std::unique_ptr<gpu::Renderer> fast_renderer(const RenderCommand& options, const
 
 /// The batch of that number alone, as ref::render_batch; its `kept` and `batch` are not called. Adds to
 /// `layers`, if there are any.
-std::optional<golden::Image> render_batch(gpu::Renderer& renderer, const RenderCommand& options,
+std::optional<images::Image> render_batch(gpu::Renderer& renderer, const RenderCommand& options,
                                           std::uint64_t number, const ref::Monitor& monitor,
                                           LayerSums* layers = nullptr);
 
 /// Adds batches to `film` until it holds all, as ref::render does.
-bool render(gpu::Renderer& renderer, const RenderCommand& options, golden::Film& film,
+bool render(gpu::Renderer& renderer, const RenderCommand& options, images::Film& film,
             const ref::Monitor& monitor, LayerSums& layers);
 
 } // namespace cli

@@ -4,8 +4,8 @@
 #include "cli/interrupt.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
-#include "golden/exr.h"
-#include "golden/image_error.h"
+#include "images/exr.h"
+#include "images/image_error.h"
 
 #include <algorithm>
 #include <charconv>
@@ -25,7 +25,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::uint64_t number_in(const golden::Metadata& metadata, const std::string& key)
+std::uint64_t number_in(const images::Metadata& metadata, const std::string& key)
 {
     const std::string text = value_of(metadata, key);
     std::uint64_t value = 0;
@@ -59,13 +59,13 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
     const Size size = parse_size(options.size);
     const RenderCommand command = render_of(options, file);
     const scenes::Scene scene = load_scene(file, false, options.quiet);
-    golden::Metadata metadata = describe(command, scene);
+    images::Metadata metadata = describe(command, scene);
     const fs::path path = golden_file(options, file);
     const std::uint64_t batches = options.samples / options.batch_size;
 
     std::optional<golden::GoldenMaker> maker;
     if (fs::exists(path)) {
-        const golden::ExrPicture earlier = golden::read_exr(path);
+        const images::ExrPicture earlier = images::read_exr(path);
         expect_made_so(options, Ask::all_options, {path, earlier.mean, earlier.metadata, !earlier.film},
                        metadata);
         if (!earlier.film) { // finished
@@ -82,7 +82,7 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
     const ref::World world(scene, size.width, size.height);
     const Clock::time_point start = Clock::now();
     Clock::time_point kept = start;
-    const auto keep = [&](golden::FilmState state) {
+    const auto keep = [&](images::FilmState state) {
         metadata["samples"] = std::to_string(maker->film().batches() * options.batch_size);
         maker->write(path, metadata, state);
     };
@@ -94,17 +94,17 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
             const auto batch =
                 ref::render_batch(world, integrator_of(command), plan, maker->film().batches(), monitor);
             if (!batch) {
-                if (maker->film().batches() > 0) keep(golden::FilmState::keep);
+                if (maker->film().batches() > 0) keep(images::FilmState::keep);
                 return false;
             }
             maker->add_batch(*batch);
             if (std::chrono::duration<double>(Clock::now() - kept).count() >= options.watch) {
-                keep(golden::FilmState::keep);
+                keep(images::FilmState::keep);
                 kept = Clock::now();
             }
         }
     }
-    keep(golden::FilmState::omit);
+    keep(images::FilmState::omit);
     std::printf("%s: %llu samples per pixel, %.0f s, %.2f MiB\n", scene.name.c_str(),
                 static_cast<unsigned long long>(options.samples),
                 std::chrono::duration<double>(Clock::now() - start).count(),
@@ -166,7 +166,7 @@ RenderCommand render_of(const GoldenCommand& options, const std::string& scene)
 
 RenderCommand render_of(const golden::Golden& golden, const std::string& scene)
 {
-    const golden::Metadata& metadata = golden.metadata;
+    const images::Metadata& metadata = golden.metadata;
     const auto text = [&](const std::string& key) {
         const auto found = metadata.find(key);
         if (found == metadata.end())

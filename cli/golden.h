@@ -54,17 +54,17 @@ std::filesystem::path golden_file(const GoldenCommand& options, const std::strin
 /// A golden that is there, or one in the making.
 struct FoundGolden {
     const std::filesystem::path& path;
-    const golden::Image& mean;
-    const golden::Metadata& metadata;
+    const images::Image& mean;
+    const images::Metadata& metadata;
     bool finished;
 };
 enum class Ask { all_options, given_options };
 
-/// Throws golden::ImageError that names each difference, with both values, if the golden was not made as
+/// Throws images::ImageError that names each difference, with both values, if the golden was not made as
 /// the options say: all of them, or only those that were given. `render_says` is how the render of the
 /// scene describes itself; what is not in it is not compared.
 void expect_made_so(const GoldenCommand& options, Ask ask, const FoundGolden& found,
-                    const golden::Metadata& render_says);
+                    const images::Metadata& render_says);
 
 /// Renders batches of each golden anew, drawn at random, and compares all their functionals, bit for
 /// bit; with as many batches as the golden has, its mean too. Says what it finds line by line.

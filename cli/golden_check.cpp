@@ -50,7 +50,7 @@ Outcome verify(const GoldenCommand& options, const std::string& file)
     const std::uint64_t total = command.samples / command.batch_size;
     const std::uint64_t pilot = total - reference;
     const bool everything = options.verify >= total;
-    golden::Film film(size.width, size.height);
+    images::Film film(size.width, size.height);
     // A pilot batch shows in the mean alone, so it takes all of them to check one.
     std::vector<std::uint64_t> chosen = draw(std::min(options.verify, reference), reference);
     for (std::uint64_t& batch : chosen) batch += pilot;

@@ -1,7 +1,7 @@
 // Is the golden that is there the one that is asked for?
 
 #include "cli/golden.h"
-#include "golden/image_error.h"
+#include "images/image_error.h"
 
 #include <charconv>
 #include <cstdint>
@@ -52,12 +52,12 @@ void compare_samples(const GoldenCommand& options, const FoundGolden& found, Dif
 } // namespace
 
 void expect_made_so(const GoldenCommand& options, Ask ask, const FoundGolden& found,
-                    const golden::Metadata& render_says)
+                    const images::Metadata& render_says)
 {
     const bool all = ask == Ask::all_options;
     const Size size = parse_size(options.size);
     const GoldenCommand::Given& given = options.given;
-    const golden::Metadata& there = found.metadata;
+    const images::Metadata& there = found.metadata;
     Differences differences;
     if (all || given.size)
         differences.compare("size", say_size(found.mean.width, found.mean.height),
@@ -77,7 +77,7 @@ void expect_made_so(const GoldenCommand& options, Ask ask, const FoundGolden& fo
         if (key != "version" && key != "batch_size" && key != "max_edges")
             differences.compare(key, value_of(there, key), value);
     if (!differences.text().empty())
-        throw golden::ImageError(found.path,
+        throw images::ImageError(found.path,
                                  "is another golden: " + differences.text() +
                                      ". Name another --folder, or remove the file to make it anew");
 }

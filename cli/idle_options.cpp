@@ -1,6 +1,6 @@
 #include "cli/idle_options.h"
 
-#include "golden/file_ending.h"
+#include "images/file_ending.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -21,7 +21,7 @@ std::vector<Rule> rules_for(const RenderCommand& options)
 {
     const auto writes = [&](const char* ending) {
         return std::ranges::any_of(
-            options.outputs, [&](const std::string& path) { return golden::has_ending(path, ending); });
+            options.outputs, [&](const std::string& path) { return images::has_ending(path, ending); });
     };
     const bool sheet = !options.strategies_picture.empty();
     const bool layers = sheet || !options.strategies.empty();

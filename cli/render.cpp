@@ -9,11 +9,11 @@
 #include "cli/render_report.h"
 #include "cli/resources.h"
 #include "cuda/transport/renderer.h"
-#include "golden/exr.h"
-#include "golden/file_ending.h"
-#include "golden/png.h"
-#include "golden/strategy_sheet.h"
-#include "golden/write_image.h"
+#include "images/exr.h"
+#include "images/file_ending.h"
+#include "images/png.h"
+#include "images/strategy_sheet.h"
+#include "images/write_image.h"
 
 #include <algorithm>
 #include <chrono>
@@ -49,7 +49,7 @@ public:
     }
 
     /// Adds batches to `film` until it holds all, and returns whether it does: see ref::render.
-    bool run(golden::Film& film, const ref::Monitor& monitor)
+    bool run(images::Film& film, const ref::Monitor& monitor)
     {
         return fast_ ? cli::render(*fast_, options_, film, monitor, fast_layers_)
                      : ref::render(*world_, integrator_of(options_), render_options(options_), film,
@@ -57,7 +57,7 @@ public:
     }
 
     /// The layers as they stand; call it between batches.
-    [[nodiscard]] golden::Strategies strategies() const
+    [[nodiscard]] images::Strategies strategies() const
     {
         return fast_ ? fast_layers_.means() : layers_->means();
     }
@@ -78,8 +78,8 @@ private:
 
 /// `metadata`, with what is known only of a film: how many samples it holds, and how many contributions
 /// it lacks because they are not finite.
-golden::Metadata describe_film(const RenderCommand& options, const golden::Film& film,
-                               const golden::Dropped& dropped, golden::Metadata metadata)
+images::Metadata describe_film(const RenderCommand& options, const images::Film& film,
+                               const images::Dropped& dropped, images::Metadata metadata)
 {
     if (dropped.count > 0) metadata["dropped"] = std::to_string(dropped.count);
     const std::uint64_t held = film.batches() * options.batch_size;
@@ -89,28 +89,28 @@ golden::Metadata describe_film(const RenderCommand& options, const golden::Film&
     return metadata;
 }
 
-void write_pictures(const RenderCommand& options, const golden::Film& film,
-                    const golden::Metadata& metadata, const golden::Layers& batches)
+void write_pictures(const RenderCommand& options, const images::Film& film,
+                    const images::Metadata& metadata, const images::Layers& batches)
 {
     for (const std::string& path : options.outputs)
-        if (!batches.empty() && golden::has_ending(path, ".exr"))
-            golden::write_exr(path, film, metadata, batches);
+        if (!batches.empty() && images::has_ending(path, ".exr"))
+            images::write_exr(path, film, metadata, batches);
         else
-            golden::write_image(path, film, metadata, options.exposure);
+            images::write_image(path, film, metadata, options.exposure);
 }
 
-void write_strategies(const RenderCommand& options, const golden::Strategies& pictures,
-                      const golden::Film& film, golden::Metadata metadata)
+void write_strategies(const RenderCommand& options, const images::Strategies& pictures,
+                      const images::Film& film, images::Metadata metadata)
 {
     metadata["strategies"] = options.unweighted ? "unweighted" : "weighted";
     if (!options.strategies.empty()) {
-        golden::Layers named;
+        images::Layers named;
         for (const auto& [strategy, image] : pictures)
             named.emplace(ref::layer_name(strategy.first, strategy.second), image);
-        golden::write_exr(options.strategies, film, metadata, named, golden::FilmState::omit);
+        images::write_exr(options.strategies, film, metadata, named, images::FilmState::omit);
     }
     if (!options.strategies_picture.empty())
-        golden::write_png(options.strategies_picture, golden::strategy_sheet(pictures),
+        images::write_png(options.strategies_picture, images::strategy_sheet(pictures),
                           options.exposure);
 }
 
@@ -126,15 +126,15 @@ ExitStatus render(const RenderCommand& options)
     const Size size = parse_size(options.size);
     check(options);
     const scenes::Scene scene = load_scene(options.scene, options.frame, options.quiet);
-    const golden::Metadata metadata = describe(options, scene);
-    golden::Dropped dropped;
-    golden::Film film = starting_film(options, metadata, dropped);
+    const images::Metadata metadata = describe(options, scene);
+    images::Dropped dropped;
+    images::Film film = starting_film(options, metadata, dropped);
     const std::uint64_t batches_before = film.batches();
     Rendering rendering(options, scene);
-    golden::Layers batches; // those that are to be kept
+    images::Layers batches; // those that are to be kept
     PictureMean mean;
-    const auto write_all = [&](const golden::Film& so_far) {
-        const golden::Metadata described = describe_film(options, so_far, dropped, metadata);
+    const auto write_all = [&](const images::Film& so_far) {
+        const images::Metadata described = describe_film(options, so_far, dropped, metadata);
         write_pictures(options, so_far, described, batches);
         if (wants_layers(options)) write_strategies(options, rendering.strategies(), so_far, described);
     };
@@ -148,13 +148,13 @@ ExitStatus render(const RenderCommand& options)
         Progress progress(scene.name, static_cast<double>(batches_before),
                           static_cast<double>(render_options(options).batches), options.quiet);
         ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
-        monitor.batch = [&](const golden::Image& batch) {
+        monitor.batch = [&](const images::Image& batch) {
             mean.add_batch(batch);
             if (options.keep_batches) batches.emplace(batch_name(batches.size()), batch);
         };
-        monitor.dropped = [&](const golden::Dropped& of_batch) { dropped += of_batch; };
+        monitor.dropped = [&](const images::Dropped& of_batch) { dropped += of_batch; };
         if (options.watch > 0.0)
-            monitor.kept = [&](const golden::Film& so_far) {
+            monitor.kept = [&](const images::Film& so_far) {
                 if (seconds_since(written) < options.watch) return;
                 write_all(so_far);
                 written = Clock::now();

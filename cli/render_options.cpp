@@ -2,7 +2,7 @@
 
 #include "cli/builders.h"
 #include "cli/output_files.h"
-#include "golden/write_image.h"
+#include "images/write_image.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 
@@ -51,8 +51,8 @@ void check_files(const RenderCommand& options)
     files.push_back({"--strategies-picture", options.strategies_picture});
     expect_different_files(files, {{"the scene", options.scene}});
     for (const std::string& path : {options.strategies, options.strategies_picture})
-        if (!path.empty()) golden::check_writable(path);
-    for (const std::string& path : options.outputs) golden::check_writable(path);
+        if (!path.empty()) images::check_writable(path);
+    for (const std::string& path : options.outputs) images::check_writable(path);
 }
 
 } // namespace

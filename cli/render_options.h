@@ -3,8 +3,8 @@
 // What `plumbline render` can be asked for.
 
 #include "cli/scene_input.h"
-#include "golden/dropped.h"
-#include "golden/image.h"
+#include "images/dropped.h"
+#include "images/film.h"
 #include "ref/transport/render.h"
 #include "scenes/scene.h"
 
@@ -54,7 +54,7 @@ void settle_batch_size(RenderCommand& options, bool given);
 /// Whether a picture of every strategy is asked for.
 bool wants_layers(const RenderCommand& options);
 
-/// Throws std::invalid_argument or golden::ImageError for options that cannot be meant, and for places
+/// Throws std::invalid_argument or images::ImageError for options that cannot be meant, and for places
 /// that cannot be written to, before any work is done.
 void check(const RenderCommand& options);
 
@@ -62,7 +62,7 @@ void check(const RenderCommand& options);
 void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size);
 
 /// What the metadata say of `key`; the empty string if they say nothing.
-std::string value_of(const golden::Metadata& metadata, const std::string& key);
+std::string value_of(const images::Metadata& metadata, const std::string& key);
 
 ref::Integrator integrator_of(const RenderCommand& options);
 ref::RenderOptions render_options(const RenderCommand& options);
@@ -70,12 +70,12 @@ ref::Builder builder_of(const RenderCommand& options);
 
 /// Everything that shapes the picture, and so must be the same for one render to go on from another: not
 /// the threads and not the builder of the tree, which change no bit.
-golden::Metadata describe(const RenderCommand& options, const scenes::Scene& scene);
+images::Metadata describe(const RenderCommand& options, const scenes::Scene& scene);
 
 /// The film to start from: that of the file to resume, or an empty one. Throws std::invalid_argument or
-/// golden::ImageError if the file holds another picture than the one asked for.
+/// images::ImageError if the file holds another picture than the one asked for.
 /// `dropped` becomes the number of contributions that the film lacks.
-golden::Film starting_film(const RenderCommand& options, const golden::Metadata& description,
-                           golden::Dropped& dropped);
+images::Film starting_film(const RenderCommand& options, const images::Metadata& description,
+                           images::Dropped& dropped);
 
 } // namespace cli

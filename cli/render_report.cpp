@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json channels(const golden::Rgb& value)
+Json channels(const images::Rgb& value)
 {
     return {value.x, value.y, value.z};
 }
@@ -50,30 +50,30 @@ Json kernel_json(const std::optional<gpu::Needs>& kernel)
 
 } // namespace
 
-golden::Rgb mean_of(const golden::Image& image)
+images::Rgb mean_of(const images::Image& image)
 {
-    golden::Rgb sum(0.0);
-    for (const golden::Rgb& pixel : image.pixels) sum += pixel;
+    images::Rgb sum(0.0);
+    for (const images::Rgb& pixel : image.pixels) sum += pixel;
     return sum / static_cast<double>(image.pixels.size());
 }
 
-void PictureMean::add_batch(const golden::Image& batch)
+void PictureMean::add_batch(const images::Image& batch)
 {
-    golden::Image pixel(1, 1);
+    images::Image pixel(1, 1);
     pixel.pixels[0] = mean_of(batch);
     film_.add_batch(pixel);
 }
 
-std::optional<golden::Rgb> PictureMean::standard_error(std::uint64_t batches) const
+std::optional<images::Rgb> PictureMean::standard_error(std::uint64_t batches) const
 {
     if (film_.batches() < 2) return std::nullopt;
-    const golden::Rgb variance = film_.squares().pixels[0] / static_cast<double>(film_.batches() - 1);
+    const images::Rgb variance = film_.squares().pixels[0] / static_cast<double>(film_.batches() - 1);
     return glm::sqrt(variance / static_cast<double>(batches));
 }
 
-bool is_unexpectedly_black(const scenes::Scene& scene, const golden::Image& picture)
+bool is_unexpectedly_black(const scenes::Scene& scene, const images::Image& picture)
 {
-    const auto dark = [](const golden::Rgb& pixel) {
+    const auto dark = [](const images::Rgb& pixel) {
         return glm::vec3(pixel) == glm::vec3(0.0f); // as files hold it
     };
     return scenes::has_emitter(scene) && std::ranges::all_of(picture.pixels, dark);

@@ -4,8 +4,8 @@
 
 #include "cli/render_options.h"
 #include "cuda/transport/needs.h"
-#include "golden/dropped.h"
-#include "golden/image.h"
+#include "images/dropped.h"
+#include "images/film.h"
 #include "scenes/scene.h"
 
 #include <optional>
@@ -19,26 +19,26 @@ namespace cli {
 class PictureMean {
 public:
     /// Adds the mean per pixel of one batch. All batches have as many samples and are independent.
-    void add_batch(const golden::Image& batch);
+    void add_batch(const images::Image& batch);
 
     /// Standard error, per channel, of the mean of a picture of `batches` batches. If an earlier run
     /// rendered some of them, they are taken to scatter as those do that were added here. None if fewer
     /// than two were added: one batch says nothing of how they scatter.
-    [[nodiscard]] std::optional<golden::Rgb> standard_error(std::uint64_t batches) const;
+    [[nodiscard]] std::optional<images::Rgb> standard_error(std::uint64_t batches) const;
 
 private:
-    golden::Film film_{1, 1}; // a picture of one pixel, the mean of all
+    images::Film film_{1, 1}; // a picture of one pixel, the mean of all
 };
 
 /// The mean over all pixels.
-golden::Rgb mean_of(const golden::Image& image);
+images::Rgb mean_of(const images::Image& image);
 
 /// What a run of `plumbline render` did.
 struct RenderRun {
     const scenes::Scene& scene;
-    const golden::Film& film;
+    const images::Film& film;
     const PictureMean& mean;
-    const golden::Dropped& dropped;
+    const images::Dropped& dropped;
     std::optional<gpu::Needs> kernel; // of the fast path; none for the reference
     double samples;                   // of all pixels together, in this run
     double seconds;
@@ -46,7 +46,7 @@ struct RenderRun {
 };
 
 /// Whether every pixel is 0 as a float, though something in the scene shines.
-bool is_unexpectedly_black(const scenes::Scene& scene, const golden::Image& picture);
+bool is_unexpectedly_black(const scenes::Scene& scene, const images::Image& picture);
 
 /// What a person must know to trust the picture, a line each: contributions that were left out, and a
 /// picture that is black though the scene has emitters.

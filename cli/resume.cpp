@@ -1,8 +1,8 @@
 // Going on from an earlier render: what must agree, and what is taken over.
 
 #include "cli/render_options.h"
-#include "golden/exr.h"
-#include "golden/file_ending.h"
+#include "images/exr.h"
+#include "images/file_ending.h"
 
 #include <algorithm>
 #include <charconv>
@@ -11,9 +11,9 @@
 
 namespace cli {
 
-golden::Metadata describe(const RenderCommand& options, const scenes::Scene& scene)
+images::Metadata describe(const RenderCommand& options, const scenes::Scene& scene)
 {
-    golden::Metadata metadata = {{"scene", scene.name},
+    images::Metadata metadata = {{"scene", scene.name},
                                  {"scene_hash", scene.hash},
                                  {"integrator", options.integrator},
                                  {"heuristic", options.heuristic},
@@ -30,28 +30,28 @@ golden::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
     return metadata;
 }
 
-std::string value_of(const golden::Metadata& metadata, const std::string& key)
+std::string value_of(const images::Metadata& metadata, const std::string& key)
 {
     const auto found = metadata.find(key);
     return found == metadata.end() ? "" : found->second;
 }
 
-golden::Film starting_film(const RenderCommand& options, const golden::Metadata& description,
-                           golden::Dropped& dropped)
+images::Film starting_film(const RenderCommand& options, const images::Metadata& description,
+                           images::Dropped& dropped)
 {
     const Size size = parse_size(options.size);
     const std::uint64_t batches = options.samples / options.batch_size;
     if (!options.resume) return {size.width, size.height};
     const auto exr = std::ranges::find_if(
-        options.outputs, [](const std::string& path) { return golden::has_ending(path, ".exr"); });
+        options.outputs, [](const std::string& path) { return images::has_ending(path, ".exr"); });
     if (exr == options.outputs.end())
         throw std::invalid_argument(
             "--resume needs an .exr among the outputs: only it holds all digits");
     if (!std::filesystem::exists(*exr)) return {size.width, size.height};
 
-    golden::ExrPicture picture = golden::read_exr(*exr);
+    images::ExrPicture picture = images::read_exr(*exr);
     if (!picture.film) throw std::invalid_argument(*exr + ": holds no state to resume from");
-    golden::Metadata expected = description;
+    images::Metadata expected = description;
     expected.try_emplace("device", "ref"); // see describe
     picture.metadata.try_emplace("device", "ref");
     for (const auto& [name, value] : expected) {
@@ -62,7 +62,7 @@ golden::Film starting_film(const RenderCommand& options, const golden::Metadata&
                                     "', not '" + value + "'" +
                                     (batch ? ": --batch " + found + " goes on with it" : ""));
     }
-    const golden::Image& mean = picture.film->mean();
+    const images::Image& mean = picture.film->mean();
     if (mean.width != size.width || mean.height != size.height)
         throw std::invalid_argument(*exr + ": cannot resume: it has " + std::to_string(mean.width) +
                                     "x" + std::to_string(mean.height) + " pixels, not " + options.size);

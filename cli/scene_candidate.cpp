@@ -14,7 +14,7 @@
 namespace cli {
 
 /// Whether batches of the two are distributed alike if both are right.
-bool same_estimator(const golden::Metadata& a, const golden::Metadata& b)
+bool same_estimator(const images::Metadata& a, const images::Metadata& b)
 {
     for (const char* key : {"integrator", "heuristic", "batch_size", "max_edges", "roulette"})
         if (value_of(a, key).empty() || value_of(a, key) != value_of(b, key)) return false;
@@ -31,14 +31,14 @@ Judged judge_scene(const golden::Golden& golden, const std::string& file,
     const std::uint64_t seed = options.seed.value_or(std::random_device()());
     const scenes::Scene scene = load_scene(file, command.frame, options.quiet);
     command.seed = seed;
-    golden::Metadata metadata = describe(command, scene);
+    images::Metadata metadata = describe(command, scene);
     const golden::Method method =
         same_estimator(metadata, golden.metadata) ? golden::Method::ranks : golden::Method::welch;
     golden::check_comparable(golden, metadata, method);
     const Size size = parse_size(command.size);
     std::optional<ref::World> world;
     if (command.device == "ref") world.emplace(scene, size.width, size.height);
-    golden::Image mean;
+    images::Image mean;
     const auto render = [&](std::size_t stage, std::uint64_t batches, golden::Candidate& candidate) {
         command.seed = seed + stage;
         command.samples = batches * command.batch_size;

@@ -10,7 +10,7 @@
 namespace cli {
 
 /// Whether batches of the two are distributed alike if both are right.
-bool same_estimator(const golden::Metadata& a, const golden::Metadata& b);
+bool same_estimator(const images::Metadata& a, const images::Metadata& b);
 
 /// Renders the scene in stages as the golden was rendered, but for what the options say, and judges it.
 /// The first stage has options.samples per pixel, rounded up to whole batches, a later one 4 times as

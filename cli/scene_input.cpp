@@ -1,6 +1,6 @@
 #include "cli/scene_input.h"
 
-#include "golden/file_ending.h"
+#include "images/file_ending.h"
 #include "scenes/contacts.h"
 #include "scenes/file_bytes.h"
 #include "scenes/frame.h"
@@ -35,7 +35,7 @@ Size parse_size(const std::string& text)
 
 void expect_ending(const std::string& path, const std::string& option, const std::string& ending)
 {
-    if (!path.empty() && !golden::has_ending(path, ending))
+    if (!path.empty() && !images::has_ending(path, ending))
         throw std::invalid_argument(option + " " + path + ": its name must end in " + ending);
 }
 
@@ -75,8 +75,8 @@ void print_notices(const scenes::Scene& scene, const std::string& file)
 void expect_triangles(const std::string& file)
 {
     const std::string ending = std::filesystem::path(file).extension().string();
-    const bool collada = ending.empty() || golden::has_ending(file, ".dae") ||
-                         golden::has_ending(file, ".xml") || file == standard_input;
+    const bool collada = ending.empty() || images::has_ending(file, ".dae") ||
+                         images::has_ending(file, ".xml") || file == standard_input;
     if (!collada && !scenes::is_mesh_file(file))
         throw std::invalid_argument(file + ": its name ends in " + ending +
                                     ", not in .dae, .obj, .ply, .stl, .gltf or .glb");

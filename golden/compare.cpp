@@ -99,7 +99,7 @@ Candidate::Candidate(const Functionals& functionals)
     : functionals_(&functionals), film_(functionals.width(), functionals.height())
 {}
 
-void Candidate::add_batch(const Image& batch)
+void Candidate::add_batch(const images::Image& batch)
 {
     rows_.push_back(functionals_->evaluate(batch));
     film_.add_batch(batch);
@@ -130,7 +130,7 @@ TileMap tile_map(const Comparison& comparison, std::size_t channel)
     return map;
 }
 
-void check_comparable(const Golden& golden, const Metadata& candidate, Method method)
+void check_comparable(const Golden& golden, const images::Metadata& candidate, Method method)
 {
     const auto both_say = [&](const std::string& key) {
         return golden.metadata.contains(key) && candidate.contains(key);

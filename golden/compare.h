@@ -6,8 +6,8 @@
 #include "golden/finding.h"
 #include "golden/functionals.h"
 #include "golden/golden.h"
-#include "golden/image.h"
 #include "golden/odd_pixels.h"
+#include "images/film.h"
 
 #include <array>
 #include <cstddef>
@@ -31,16 +31,16 @@ public:
     /// Adds one batch: for Method::ranks the mean of as many samples as the golden's batches are, else
     /// one of several independent pictures, each equally good. Throws std::invalid_argument if its size
     /// differs from the golden's or a pixel is NaN or infinite; the message names no file.
-    void add_batch(const Image& batch);
+    void add_batch(const images::Image& batch);
 
     [[nodiscard]] std::uint64_t batches() const { return film_.batches(); }
-    [[nodiscard]] const Film& film() const { return film_; }
+    [[nodiscard]] const images::Film& film() const { return film_; }
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
     [[nodiscard]] const Functionals& functionals() const { return *functionals_; }
 
 private:
     const Functionals* functionals_;
-    Film film_;
+    images::Film film_;
     std::vector<Row> rows_;
 };
 
@@ -101,7 +101,7 @@ TileMap tile_map(const Comparison& comparison, std::size_t channel);
 /// Throws std::invalid_argument if the two cannot be compared by this method: different scene hashes,
 /// for Method::ranks different batch sizes, integrators' parameters, or the golden's own seed. What a
 /// candidate does not say about itself is not checked.
-void check_comparable(const Golden& golden, const Metadata& candidate, Method method);
+void check_comparable(const Golden& golden, const images::Metadata& candidate, Method method);
 
 /// Judges by what there is: one stage. A suspicion that no further stage can confirm or clear makes
 /// INCONCLUSIVE, unless it is beyond doubt. Method::ranks or Method::welch; the latter needs two batches
@@ -125,7 +125,7 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
 /// Judges several independent pictures, each equally good, of an unknown estimator, by Method::welch as
 /// above. If what rules the result are a few pixels far brighter than the golden's, it says what the
 /// verdict would be without them. Throws as Candidate::add_batch and compare.
-Comparison compare_pictures(const Golden& golden, std::span<const Image> pictures,
+Comparison compare_pictures(const Golden& golden, std::span<const images::Image> pictures,
                             const CompareOptions& options = {});
 
 /// Judges a single picture, said to be the mean of `samples` samples per pixel. Its noise is taken to be
@@ -134,7 +134,7 @@ Comparison compare_pictures(const Golden& golden, std::span<const Image> picture
 /// compare_pictures. The golden's metadata must have a batch_size. Throws std::invalid_argument as
 /// Candidate::add_batch, for samples that are not positive, and for a picture that has the golden's own
 /// noise, as a copy of it has.
-Comparison compare_picture(const Golden& golden, const Image& picture, double samples,
+Comparison compare_picture(const Golden& golden, const images::Image& picture, double samples,
                            const CompareOptions& options = {});
 
 } // namespace golden

@@ -25,7 +25,8 @@ struct Scatter {
 /// The picture's difference from the golden, summed over small blocks, varies from block to block by
 /// noise alone: that of the picture, and that of the golden, which its standard errors tell. Blocks, as
 /// reconstruction filters make neighbouring pixels depend on each other.
-Scatter scatter(const Golden& golden, const Image& picture, std::size_t functional, std::size_t channel)
+Scatter scatter(const Golden& golden, const images::Image& picture, std::size_t functional,
+                std::size_t channel)
 {
     const Functionals& functionals = golden.functionals;
     const Region& region = functionals.regions()[functionals.at(functional).region];
@@ -74,7 +75,7 @@ void expect_independent(const Scatter& whole)
 }
 
 /// The noise of the whole picture, in the channel where it exceeds most what its samples let expect.
-void measure_noise(Comparison& comparison, const Golden& golden, const Image& picture)
+void measure_noise(Comparison& comparison, const Golden& golden, const images::Image& picture)
 {
     constexpr std::size_t whole = 0; // matched
     for (std::size_t c = 0; c < channel_count; ++c) {
@@ -89,7 +90,7 @@ void measure_noise(Comparison& comparison, const Golden& golden, const Image& pi
 }
 
 /// Findings and what follows from them.
-Comparison look_at_picture(const Golden& golden, const Image& picture, double batches,
+Comparison look_at_picture(const Golden& golden, const images::Image& picture, double batches,
                            const CompareOptions& options)
 {
     const Functionals& functionals = golden.functionals;
@@ -137,7 +138,7 @@ void decide(Comparison& comparison, const CompareOptions& options)
 
 } // namespace
 
-Comparison compare_picture(const Golden& golden, const Image& picture, double samples,
+Comparison compare_picture(const Golden& golden, const images::Image& picture, double samples,
                            const CompareOptions& options)
 {
     if (!(samples > 0.0)) throw std::invalid_argument("the number of samples must be positive");

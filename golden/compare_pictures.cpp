@@ -11,17 +11,17 @@ namespace golden {
 
 namespace {
 
-Comparison judge_pictures(const Golden& golden, std::span<const Image> pictures,
+Comparison judge_pictures(const Golden& golden, std::span<const images::Image> pictures,
                           const std::vector<std::size_t>& without, const CompareOptions& options)
 {
     Candidate candidate(golden.functionals);
-    for (const Image& picture : pictures)
+    for (const images::Image& picture : pictures)
         candidate.add_batch(without.empty() ? picture : replaced(picture, without, golden.mean));
     return compare(golden, candidate, Method::welch, options);
 }
 
 /// Adds what no right picture has and one of these has, if their mean hides it. Whether there is such.
-bool look_at_each(Comparison& comparison, const Golden& golden, std::span<const Image> pictures)
+bool look_at_each(Comparison& comparison, const Golden& golden, std::span<const images::Image> pictures)
 {
     bool added = false;
     for (std::size_t i = 0; i < pictures.size(); ++i)
@@ -40,7 +40,7 @@ bool look_at_each(Comparison& comparison, const Golden& golden, std::span<const 
 
 } // namespace
 
-Comparison compare_pictures(const Golden& golden, std::span<const Image> pictures,
+Comparison compare_pictures(const Golden& golden, std::span<const images::Image> pictures,
                             const CompareOptions& options)
 {
     Comparison comparison = judge_pictures(golden, pictures, {}, options);

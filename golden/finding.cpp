@@ -61,7 +61,7 @@ Judge::Judge(const Golden& golden, Method method, const CompareOptions& options)
     : golden_(golden), functionals_(golden.functionals), method_(method), options_(options),
       multiplicity_(functionals_, method)
 {
-    for (const Rgb& pixel : golden.mean.pixels)
+    for (const images::Rgb& pixel : golden.mean.pixels)
         brightness_ +=
             (pixel.r + pixel.g + pixel.b) / (3.0 * static_cast<double>(golden.mean.pixels.size()));
 }

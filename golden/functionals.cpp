@@ -1,5 +1,5 @@
 #include "golden/functionals.h"
-#include "golden/non_finite.h"
+#include "images/non_finite.h"
 
 #include <glm/geometric.hpp>
 #include <half.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t strata = 16;
 
-double luminance(const Rgb& color)
+double luminance(const images::Rgb& color)
 {
     return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b; // Rec.709
 }
@@ -89,10 +89,10 @@ std::string describe(Weight weight)
     return "";
 }
 
-Pilot make_pilot(const Film& film)
+Pilot make_pilot(const images::Film& film)
 {
     if (film.batches() < 2) throw std::invalid_argument("a pilot needs two batches at least");
-    Pilot pilot{film.mean(), Image(film.mean().width, film.mean().height), film.batches()};
+    Pilot pilot{film.mean(), images::Image(film.mean().width, film.mean().height), film.batches()};
     for (std::size_t i = 0; i < pilot.mean.pixels.size(); ++i)
         for (int channel = 0; channel < 3; ++channel) {
             double& mean = pilot.mean.pixels[i][channel];
@@ -106,10 +106,10 @@ Pilot make_pilot(const Film& film)
 
 Functionals::Functionals(Pilot pilot) : pilot_(std::move(pilot))
 {
-    const Image& mean = pilot_.mean;
+    const images::Image& mean = pilot_.mean;
     if (mean.pixels.empty() || mean.width != pilot_.noise.width || mean.height != pilot_.noise.height)
         throw std::invalid_argument("pilot: mean and noise are empty or differ in size");
-    if (first_non_finite(mean) || first_non_finite(pilot_.noise))
+    if (images::first_non_finite(mean) || images::first_non_finite(pilot_.noise))
         throw std::invalid_argument("pilot: a pixel is NaN or infinite");
     if (pilot_.batches < 1) throw std::invalid_argument("pilot: no batches");
     lay_out_regions();
@@ -142,10 +142,10 @@ void Functionals::lay_out_regions()
     std::vector<double> by_luminance(pixels);
     std::vector<double> by_noise(pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
-        const Rgb& m = pilot_.mean.pixels[i];
+        const images::Rgb& m = pilot_.mean.pixels[i];
         by_luminance[i] = luminance(m);
         const double sum = m.r + m.g + m.b;
-        const Rgb deviation = pilot_.noise.pixels[i] * m;
+        const images::Rgb deviation = pilot_.noise.pixels[i] * m;
         by_noise[i] = sum > 0.0 ? glm::dot(deviation, deviation) / (sum * sum) : 0.0;
     }
     const auto add_strata = [&](RegionKind kind, const std::vector<std::uint32_t>& stratum) {
@@ -203,9 +203,9 @@ Functionals::Sums Functionals::sum_over_regions(const PixelTerms& terms) const
 
 void Functionals::weigh()
 {
-    const std::vector<Rgb>& mean = pilot_.mean.pixels;
-    matched_.assign(mean.size(), Rgb(0.0));
-    std::vector<Rgb> variance(mean.size(), Rgb(0.0));
+    const std::vector<images::Rgb>& mean = pilot_.mean.pixels;
+    matched_.assign(mean.size(), images::Rgb(0.0));
+    std::vector<images::Rgb> variance(mean.size(), images::Rgb(0.0));
     for (std::size_t i = 0; i < mean.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             if (!(mean[i][c] > 0.0)) continue;
@@ -259,14 +259,14 @@ double Functionals::spread(std::size_t functional, std::size_t channel) const
     return standards_[channel][functional].spread;
 }
 
-void Functionals::check(const Image& batch) const
+void Functionals::check(const images::Image& batch) const
 {
     if (batch.width != width() || batch.height != height() ||
         batch.pixels.size() != pilot_.mean.pixels.size())
         throw std::invalid_argument("has " + std::to_string(batch.width) + "x" +
                                     std::to_string(batch.height) + " pixels, the golden " +
                                     std::to_string(width()) + "x" + std::to_string(height()));
-    if (const auto fault = say_non_finite(batch)) throw std::invalid_argument(*fault);
+    if (const auto fault = images::say_non_finite(batch)) throw std::invalid_argument(*fault);
 }
 
 double Functionals::bounded(std::size_t pixel, int channel, double value) const
@@ -277,7 +277,7 @@ double Functionals::bounded(std::size_t pixel, int channel, double value) const
     return light + m > 0.0 ? light / (light + m) : 0.5;
 }
 
-Row Functionals::evaluate(const Image& batch) const
+Row Functionals::evaluate(const images::Image& batch) const
 {
     check(batch);
     Row row;
@@ -298,7 +298,7 @@ Row Functionals::evaluate(const Image& batch) const
     return row;
 }
 
-Row Functionals::slopes(const Image& batch) const
+Row Functionals::slopes(const images::Image& batch) const
 {
     check(batch);
     Row row;

@@ -7,7 +7,7 @@
 // Regions and weights are chosen by looking at a pilot: some batches of the golden that are used for
 // nothing else, so that the choice cannot depend on the noise that is then judged.
 
-#include "golden/image.h"
+#include "images/film.h"
 
 #include <array>
 #include <cstdint>
@@ -56,15 +56,15 @@ constexpr bool is_linear(Weight weight)
 /// Per pixel and channel, the mean of the pilot's batches and their noise sqrt(v) / m, the relative
 /// standard deviation of one batch (0 where m is not positive). What a golden stores of its pilot.
 struct Pilot {
-    Image mean;
-    Image noise;
+    images::Image mean;
+    images::Image noise;
     std::uint64_t batches = 0;
 };
 
 /// The pilot that a film of at least two batches makes, noise rounded to half precision, mean to single:
 /// as a file holds them, so that a golden that was read and one that was made are the same. Throws
 /// std::invalid_argument for fewer batches.
-Pilot make_pilot(const Film& film);
+Pilot make_pilot(const images::Film& film);
 
 /// One region seen through one weight.
 struct Functional {
@@ -99,11 +99,11 @@ public:
 
     /// The functionals of a batch. Throws std::invalid_argument if its size differs or a pixel is NaN
     /// or infinite.
-    [[nodiscard]] Row evaluate(const Image& batch) const;
+    [[nodiscard]] Row evaluate(const images::Image& batch) const;
 
     /// By how much each value of a row moves per relative error of the whole picture, for the bounded
     /// functionals, as this batch tells; 0 for the linear ones. Throws as evaluate.
-    [[nodiscard]] Row slopes(const Image& batch) const;
+    [[nodiscard]] Row slopes(const images::Image& batch) const;
 
     /// The pixel's share in a linear functional of its channel is weight * value; 0 outside the region.
     [[nodiscard]] double pixel_weight(std::size_t functional, std::size_t channel,
@@ -119,7 +119,7 @@ private:
 
     void lay_out_regions();
     void weigh();
-    void check(const Image& batch) const;
+    void check(const images::Image& batch) const;
     /// c / (c + m), for a value c of the pixel.
     [[nodiscard]] double bounded(std::size_t pixel, int channel, double value) const;
     [[nodiscard]] bool contains(const Region& region, std::size_t pixel) const;
@@ -137,7 +137,7 @@ private:
         std::uint32_t fine, luminance, noise; // regions that the pixel lies in
     };
     std::vector<Place> places_;
-    std::vector<Rgb> matched_; // m / v per pixel
+    std::vector<images::Rgb> matched_; // m / v per pixel
     std::array<std::vector<Standard>, 3> standards_;
 };
 

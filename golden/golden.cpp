@@ -1,7 +1,7 @@
 #include "golden/golden.h"
 
-#include "golden/image_error.h"
-#include "golden/non_finite.h"
+#include "images/image_error.h"
+#include "images/non_finite.h"
 
 #include <charconv>
 #include <cmath>
@@ -29,9 +29,9 @@ constexpr const char* functionals_key = "golden.functionals";
     return static_cast<float>(value);
 }
 
-Image in_single_precision(Image image)
+images::Image in_single_precision(images::Image image)
 {
-    for (Rgb& pixel : image.pixels)
+    for (images::Rgb& pixel : image.pixels)
         for (int channel = 0; channel < 3; ++channel)
             pixel[channel] = static_cast<double>(single(pixel[channel]));
     return image;
@@ -45,13 +45,13 @@ std::string reference_layer(std::size_t index)
 }
 
 /// The rows as pictures of the golden's size.
-void add_rows(Layers& layers, const std::vector<Row>& rows, const Functionals& functionals)
+void add_rows(images::Layers& layers, const std::vector<Row>& rows, const Functionals& functionals)
 {
     const std::size_t count = functionals.size();
     const auto pixels = functionals.pilot().mean.pixels.size();
     for (std::size_t at = 0; at < rows.size() * count; ++at) {
-        Image& layer = layers[reference_layer(at / pixels)];
-        if (layer.pixels.empty()) layer = Image(functionals.width(), functionals.height());
+        images::Image& layer = layers[reference_layer(at / pixels)];
+        if (layer.pixels.empty()) layer = images::Image(functionals.width(), functionals.height());
         for (std::size_t c = 0; c < channel_count; ++c)
             layer.pixels[at % pixels][static_cast<int>(c)] =
                 static_cast<double>(rows[at / count][c * count + at % count]);
@@ -59,40 +59,41 @@ void add_rows(Layers& layers, const std::vector<Row>& rows, const Functionals& f
 }
 
 /// `batches`: with the slopes, one more than those of the reference.
-std::vector<Row> read_rows(const fs::path& path, const Layers& layers, const Functionals& functionals,
-                           std::uint64_t batches)
+std::vector<Row> read_rows(const fs::path& path, const images::Layers& layers,
+                           const Functionals& functionals, std::uint64_t batches)
 {
     const std::size_t count = functionals.size();
     const auto pixels = functionals.pilot().mean.pixels.size();
     // Before memory is asked for: do the layers hold so many?
     const std::size_t layers_needed = (batches * count + pixels - 1) / pixels;
     if (batches > layers.size() * pixels / count || !layers.contains(reference_layer(layers_needed - 1)))
-        throw ImageError(path, "damaged golden: says it holds " + std::to_string(batches - 1) +
-                                   " reference batches, and does not");
+        throw images::ImageError(path, "damaged golden: says it holds " + std::to_string(batches - 1) +
+                                           " reference batches, and does not");
     std::vector<Row> rows(batches, Row(channel_count * count));
     for (std::size_t at = 0; at < batches * count; ++at) {
         const auto layer = layers.find(reference_layer(at / pixels));
         if (layer == layers.end())
-            throw ImageError(path, "damaged golden: has no layer " + reference_layer(at / pixels));
+            throw images::ImageError(path,
+                                     "damaged golden: has no layer " + reference_layer(at / pixels));
         for (std::size_t c = 0; c < channel_count; ++c) {
             const double value = layer->second.pixels[at % pixels][static_cast<int>(c)];
             if (!std::isfinite(value))
-                throw ImageError(path, "damaged golden: a reference value is NaN or infinite");
+                throw images::ImageError(path, "damaged golden: a reference value is NaN or infinite");
             rows[at / count][c * count + at % count] = static_cast<float>(value);
         }
     }
     return rows;
 }
 
-const std::string& find_text(const fs::path& path, const Metadata& metadata, const char* key)
+const std::string& find_text(const fs::path& path, const images::Metadata& metadata, const char* key)
 {
     const auto found = metadata.find(key);
     if (found == metadata.end())
-        throw ImageError(path, "not a golden: says nothing of its " + std::string(key));
+        throw images::ImageError(path, "not a golden: says nothing of its " + std::string(key));
     return found->second;
 }
 
-std::uint64_t find_number(const fs::path& path, const Metadata& metadata, const char* key)
+std::uint64_t find_number(const fs::path& path, const images::Metadata& metadata, const char* key)
 {
     const std::string& text = find_text(path, metadata, key);
     std::uint64_t number = 0;
@@ -100,7 +101,7 @@ std::uint64_t find_number(const fs::path& path, const Metadata& metadata, const 
     const auto [rest, error] = std::from_chars(text.data(), end, number);
     constexpr std::uint64_t largest = std::uint64_t{1} << 32;
     if (error != std::errc() || rest != end || number > largest)
-        throw ImageError(path, "'" + text + "' is no " + key);
+        throw images::ImageError(path, "'" + text + "' is no " + key);
     return number;
 }
 
@@ -110,22 +111,22 @@ std::string say_functionals(const Functionals& functionals)
     return "version 1, " + std::to_string(functionals.size()) + " per channel";
 }
 
-Functionals read_functionals(const fs::path& path, const ExrPicture& picture)
+Functionals read_functionals(const fs::path& path, const images::ExrPicture& picture)
 {
     const auto mean = picture.layers.find(pilot_mean_layer);
     const auto noise = picture.layers.find(pilot_noise_layer);
     if (mean == picture.layers.end() || noise == picture.layers.end())
-        throw ImageError(path, "not a golden: has no pilot");
+        throw images::ImageError(path, "not a golden: has no pilot");
     const std::uint64_t batches = find_number(path, picture.metadata, pilot_batches_key);
     const std::string& said = find_text(path, picture.metadata, functionals_key);
     try {
         Functionals functionals({mean->second, noise->second, batches});
         if (said != say_functionals(functionals))
-            throw ImageError(path, "its functionals are '" + said + "', this program's '" +
-                                       say_functionals(functionals) + "': make it again");
+            throw images::ImageError(path, "its functionals are '" + said + "', this program's '" +
+                                               say_functionals(functionals) + "': make it again");
         return functionals;
     } catch (const std::invalid_argument& error) {
-        throw ImageError(path, std::string("damaged golden: ") + error.what());
+        throw images::ImageError(path, std::string("damaged golden: ") + error.what());
     }
 }
 
@@ -142,11 +143,11 @@ double batch_size_of(const Golden& golden)
 
 Golden read_golden(const fs::path& path)
 {
-    ExrPicture picture = read_exr(path);
+    images::ExrPicture picture = images::read_exr(path);
     Functionals functionals = read_functionals(path, picture);
-    if (!picture.standard_error) throw ImageError(path, "not a golden: has no standard error");
+    if (!picture.standard_error) throw images::ImageError(path, "not a golden: has no standard error");
     const std::uint64_t batches = find_number(path, picture.metadata, reference_batches_key);
-    if (batches < 1) throw ImageError(path, "not a finished golden: no batch after its pilot");
+    if (batches < 1) throw images::ImageError(path, "not a finished golden: no batch after its pilot");
     std::vector<Row> rows = read_rows(path, picture.layers, functionals, batches + 1);
     Row slopes = std::move(rows.back());
     rows.pop_back();
@@ -166,18 +167,19 @@ GoldenMaker::GoldenMaker(int width, int height, std::uint64_t pilot_batches)
 
 GoldenMaker GoldenMaker::resume(const fs::path& path)
 {
-    ExrPicture picture = read_exr(path);
-    if (!picture.film) throw ImageError(path, "holds no state to resume from");
+    images::ExrPicture picture = images::read_exr(path);
+    if (!picture.film) throw images::ImageError(path, "holds no state to resume from");
     const std::uint64_t pilot_batches = find_number(path, picture.metadata, pilot_batches_key);
-    if (pilot_batches < 2) throw ImageError(path, "damaged golden: a pilot of fewer than two batches");
-    const Image& mean = picture.film->mean();
+    if (pilot_batches < 2)
+        throw images::ImageError(path, "damaged golden: a pilot of fewer than two batches");
+    const images::Image& mean = picture.film->mean();
     GoldenMaker maker(mean.width, mean.height, pilot_batches);
     maker.film_ = std::move(*picture.film);
     if (maker.film_.batches() < pilot_batches) return maker;
     maker.functionals_ = read_functionals(path, picture);
     const std::uint64_t batches = maker.film_.batches() - pilot_batches;
     if (batches != find_number(path, picture.metadata, reference_batches_key))
-        throw ImageError(path, "damaged golden: its film and its reference differ in length");
+        throw images::ImageError(path, "damaged golden: its film and its reference differ in length");
     if (batches == 0) return maker;
     maker.reference_ = read_rows(path, picture.layers, *maker.functionals_, batches + 1);
     maker.slopes_ = std::move(maker.reference_.back());
@@ -185,9 +187,9 @@ GoldenMaker GoldenMaker::resume(const fs::path& path)
     return maker;
 }
 
-void GoldenMaker::add_batch(const Image& batch)
+void GoldenMaker::add_batch(const images::Image& batch)
 {
-    if (const auto fault = say_non_finite(batch))
+    if (const auto fault = images::say_non_finite(batch))
         throw std::invalid_argument("batch " + std::to_string(film_.batches()) + ": " + *fault);
     Row row;
     if (functionals_) row = functionals_->evaluate(batch);
@@ -197,10 +199,10 @@ void GoldenMaker::add_batch(const Image& batch)
     if (film_.batches() == pilot_batches_) functionals_.emplace(make_pilot(film_));
 }
 
-Golden GoldenMaker::golden(const Metadata& metadata) const
+Golden GoldenMaker::golden(const images::Metadata& metadata) const
 {
     if (reference_.empty()) throw std::invalid_argument("a golden needs batches after its pilot");
-    Metadata all = metadata;
+    images::Metadata all = metadata;
     describe(all);
     return {in_single_precision(film_.mean()),
             in_single_precision(film_.standard_error()),
@@ -210,21 +212,22 @@ Golden GoldenMaker::golden(const Metadata& metadata) const
             slopes_};
 }
 
-void GoldenMaker::describe(Metadata& metadata) const
+void GoldenMaker::describe(images::Metadata& metadata) const
 {
     metadata[pilot_batches_key] = std::to_string(pilot_batches_);
     metadata[reference_batches_key] = std::to_string(reference_.size());
     if (functionals_) metadata[functionals_key] = say_functionals(*functionals_);
 }
 
-void GoldenMaker::write(const fs::path& path, const Metadata& metadata, FilmState state) const
+void GoldenMaker::write(const fs::path& path, const images::Metadata& metadata,
+                        images::FilmState state) const
 {
-    if (state == FilmState::omit && reference_.empty())
+    if (state == images::FilmState::omit && reference_.empty())
         throw std::invalid_argument("a golden needs batches after its pilot");
-    Metadata all = metadata;
+    images::Metadata all = metadata;
     describe(all);
-    Layers layers;
-    Layers half_layers;
+    images::Layers layers;
+    images::Layers half_layers;
     if (functionals_) {
         layers[pilot_mean_layer] = functionals_->pilot().mean;
         half_layers[pilot_noise_layer] = functionals_->pilot().noise;
@@ -232,7 +235,7 @@ void GoldenMaker::write(const fs::path& path, const Metadata& metadata, FilmStat
         if (!rows.empty()) rows.push_back(slopes_);
         add_rows(half_layers, rows, *functionals_);
     }
-    write_exr(path, film_, all, layers, state, half_layers);
+    images::write_exr(path, film_, all, layers, state, half_layers);
 }
 
 } // namespace golden

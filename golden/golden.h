@@ -13,9 +13,9 @@
 //
 // R, G, B and se are the mean over all batches and its standard error, as in any picture of ours.
 
-#include "golden/exr.h"
 #include "golden/functionals.h"
-#include "golden/image.h"
+#include "images/exr.h"
+#include "images/film.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -25,9 +25,9 @@
 namespace golden {
 
 struct Golden {
-    Image mean;           // of all batches
-    Image standard_error; // of that mean
-    Metadata metadata;
+    images::Image mean;           // of all batches
+    images::Image standard_error; // of that mean
+    images::Metadata metadata;
     Functionals functionals;
     std::vector<Row> reference; // the functionals of each batch after the pilot
     Row slopes;                 // see Functionals::slopes, of the first of these batches
@@ -56,25 +56,26 @@ public:
     static GoldenMaker resume(const std::filesystem::path& path);
 
     /// Throws std::invalid_argument if the size differs or a pixel is NaN or infinite.
-    void add_batch(const Image& batch);
+    void add_batch(const images::Image& batch);
 
-    [[nodiscard]] const Film& film() const { return film_; } // of all batches
+    [[nodiscard]] const images::Film& film() const { return film_; } // of all batches
     [[nodiscard]] std::uint64_t pilot_batches() const { return pilot_batches_; }
     [[nodiscard]] std::uint64_t reference_batches() const { return reference_.size(); }
 
     /// The golden so far, as read_golden would return it. Throws std::invalid_argument before the first
     /// batch after the pilot.
-    [[nodiscard]] Golden golden(const Metadata& metadata) const;
+    [[nodiscard]] Golden golden(const images::Metadata& metadata) const;
 
     /// Writes what there is, with the state to resume from or, once it is finished, without.
     /// `metadata` describes the picture, batch_size included. Throws ImageError, and
     /// std::invalid_argument for a golden without state that has no batch after the pilot.
-    void write(const std::filesystem::path& path, const Metadata& metadata, FilmState state) const;
+    void write(const std::filesystem::path& path, const images::Metadata& metadata,
+               images::FilmState state) const;
 
 private:
-    void describe(Metadata& metadata) const;
+    void describe(images::Metadata& metadata) const;
 
-    Film film_;
+    images::Film film_;
     std::uint64_t pilot_batches_;
     std::optional<Functionals> functionals_; // once the pilot is complete
     std::vector<Row> reference_;

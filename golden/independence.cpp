@@ -16,14 +16,14 @@ constexpr std::size_t third_pictures = 4; // that each pair is compared with
 constexpr double times_closer = 3.0;      // than two independent pictures may be
 constexpr double times_closer_than_golden = 1e4;
 
-double sum_of(const Rgb& pixel)
+double sum_of(const images::Rgb& pixel)
 {
     return pixel.r + pixel.g + pixel.b;
 }
 
 /// Pixels that are looked at: every other one of every other row, as a reconstruction filter makes
 /// neighbours depend on each other.
-std::vector<std::size_t> sites_of(const Image& image)
+std::vector<std::size_t> sites_of(const images::Image& image)
 {
     std::vector<std::size_t> sites;
     for (int y = 0; y < image.height; y += 2)
@@ -43,7 +43,7 @@ struct Closeness {
     }
 };
 
-Closeness closeness_beside(const Image& a, const Image& b, const Image& third,
+Closeness closeness_beside(const images::Image& a, const images::Image& b, const images::Image& third,
                            const std::vector<std::size_t>& sites)
 {
     Closeness result;
@@ -62,7 +62,7 @@ Closeness closeness_beside(const Image& a, const Image& b, const Image& third,
 
 /// The same for two pictures, beside the golden, where they differ from it by more than its own noise. A
 /// factor on all pixels, as of a wrong exposure, is taken off first.
-Closeness closeness_beside_golden(const Golden& golden, const Image& a, const Image& b,
+Closeness closeness_beside_golden(const Golden& golden, const images::Image& a, const images::Image& b,
                                   const std::vector<std::size_t>& sites)
 {
     std::vector<double> ratios;
@@ -92,7 +92,7 @@ struct Sameness {
     bool within = true; // a thousandth of the noise of a batch, in those pixels
 };
 
-Sameness sameness_of(const Golden& golden, const Image& a, const Image& b)
+Sameness sameness_of(const Golden& golden, const images::Image& a, const images::Image& b)
 {
     const double batches = static_cast<double>(golden.batches());
     Sameness result;
@@ -111,7 +111,7 @@ Sameness sameness_of(const Golden& golden, const Image& a, const Image& b)
 }
 
 /// Whether all pictures are the same where the golden has noise.
-std::optional<SharedNoise> all_the_same(const Golden& golden, std::span<const Image> pictures)
+std::optional<SharedNoise> all_the_same(const Golden& golden, std::span<const images::Image> pictures)
 {
     bool equal = true;
     std::size_t noisy = 0;
@@ -146,7 +146,7 @@ double chance_of_shared_noise(std::size_t sites)
     return boost::math::cdf(boost::math::complement(boost::math::binomial(n, 1.0 / 3.0), first - 1.0));
 }
 
-std::optional<SharedNoise> shared_noise(const Golden& golden, std::span<const Image> pictures)
+std::optional<SharedNoise> shared_noise(const Golden& golden, std::span<const images::Image> pictures)
 {
     const std::size_t count = pictures.size();
     if (count < 2) return std::nullopt;

@@ -5,7 +5,7 @@
 // the bounds.
 
 #include "golden/golden.h"
-#include "golden/image.h"
+#include "images/image.h"
 
 #include <cstddef>
 #include <optional>
@@ -31,7 +31,7 @@ struct SharedNoise {
 ///
 /// Each picture is compared with the 256 before it. All must have the golden's size. Where the golden
 /// has no noise, equal pictures are right: then there is no pair.
-std::optional<SharedNoise> shared_noise(const Golden& golden, std::span<const Image> pictures);
+std::optional<SharedNoise> shared_noise(const Golden& golden, std::span<const images::Image> pictures);
 
 /// The chance that independent pictures of `sites` independent pixels are taken for dependent, in one
 /// comparison of three: the binomial tail from nine tenths of the sites on, each with a chance of 1/3.

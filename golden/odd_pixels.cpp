@@ -13,7 +13,7 @@ namespace {
 /// What is seen of one picture, value by value.
 class Look {
 public:
-    Look(const Golden& golden, const Image& picture)
+    Look(const Golden& golden, const images::Image& picture)
         : golden_(golden), picture_(picture), batches_(static_cast<double>(golden.batches()))
     {
         for (std::size_t c = 0; c < channel_count; ++c) {
@@ -73,7 +73,7 @@ private:
     }
 
     const Golden& golden_;
-    const Image& picture_;
+    const images::Image& picture_;
     double batches_;
     double brightness_ = 0.0;
     std::array<double, channel_count> noise_{};
@@ -260,7 +260,7 @@ std::string describe(const OddPixels& odd)
     return "";
 }
 
-std::vector<OddPixels> odd_pixels(const Golden& golden, const Image& picture, double batches,
+std::vector<OddPixels> odd_pixels(const Golden& golden, const images::Image& picture, double batches,
                                   double level)
 {
     const Look look(golden, picture);
@@ -284,7 +284,8 @@ std::vector<std::size_t> bright_pixels(const std::vector<OddPixels>& odd)
     return {};
 }
 
-Image replaced(Image picture, const std::vector<std::size_t>& pixels, const Image& other)
+images::Image replaced(images::Image picture, const std::vector<std::size_t>& pixels,
+                       const images::Image& other)
 {
     for (const std::size_t i : pixels) picture.pixels[i] = other.pixels[i];
     return picture;

@@ -5,7 +5,7 @@
 // section 6, says which of them decide.
 
 #include "golden/golden.h"
-#include "golden/image.h"
+#include "images/image.h"
 
 #include <cstddef>
 #include <optional>
@@ -27,7 +27,7 @@ std::string describe(Oddity oddity); // "negative"
 struct OddPixels {
     Oddity kind;
     std::vector<std::size_t> pixels; // their numbers, row by row; not empty
-    PixelPosition place;
+    images::PixelPosition place;
     std::size_t channel;
     double value;
     double expected;   // the golden's mean there
@@ -44,7 +44,7 @@ std::string describe(const OddPixels& odd);
 /// pixel is wrong if the chance of any such pixel in a right picture is below `level`, see
 /// chance_of_darkness. Pixels that are dark or bright are listed only if they are few: at most one in
 /// 500, or one of a small picture.
-std::vector<OddPixels> odd_pixels(const Golden& golden, const Image& picture, double batches,
+std::vector<OddPixels> odd_pixels(const Golden& golden, const images::Image& picture, double batches,
                                   double level);
 
 /// The numbers of all pixels that are listed, and of those that are listed as bright.
@@ -52,7 +52,8 @@ std::vector<std::size_t> pixels_of(const std::vector<OddPixels>& odd);
 std::vector<std::size_t> bright_pixels(const std::vector<OddPixels>& odd);
 
 /// `picture` with some pixels, by their numbers, taken from `other` of the same size.
-Image replaced(Image picture, const std::vector<std::size_t>& pixels, const Image& other);
+images::Image replaced(images::Image picture, const std::vector<std::size_t>& pixels,
+                       const images::Image& other);
 
 /// Upper bound of the chance that the mean of `batches` independent values, none negative, of mean
 /// `mean` and variance `variance`, is `value` < `mean` or less: exp(-n (m - x)^2 / (2 (v + m^2))),

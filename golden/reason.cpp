@@ -50,16 +50,16 @@ bool is_scaled(const Comparison& comparison, const Finding& whole)
 }
 
 /// The picture with its rows in reverse order.
-Image upside_down(const Image& image)
+images::Image upside_down(const images::Image& image)
 {
-    Image turned(image.width, image.height);
+    images::Image turned(image.width, image.height);
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) turned.at(x, y) = image.at(x, image.height - 1 - y);
     return turned;
 }
 
 /// The sum over pixels of |a - b| / (a + b), which no single pixel rules.
-double distance(const Image& a, const Image& b)
+double distance(const images::Image& a, const images::Image& b)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
@@ -147,7 +147,7 @@ void give_reason(Comparison& comparison, const std::string& text)
 }
 
 std::string say_possible_causes(const Comparison& comparison, const Golden& golden,
-                                const Metadata& candidate, const Image& mean)
+                                const images::Metadata& candidate, const images::Image& mean)
 {
     if (comparison.verdict == Verdict::pass || !comparison.suspicion) return "";
     std::string text;

@@ -33,6 +33,6 @@ void give_reason(Comparison& comparison, const std::string& text);
 /// the reason, each with a space before it, or nothing. `candidate` is what it says about its making,
 /// `mean` the picture itself.
 std::string say_possible_causes(const Comparison& comparison, const Golden& golden,
-                                const Metadata& candidate, const Image& mean);
+                                const images::Metadata& candidate, const images::Image& mean);
 
 } // namespace golden

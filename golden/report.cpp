@@ -1,10 +1,10 @@
 #include "golden/report.h"
-#include "golden/atomic_file.h"
-#include "golden/flip.h"
-#include "golden/png.h"
 #include "golden/reason.h"
 #include "golden/report_page.h" // page_template, made from report_page.html
-#include "golden/strategy_sheet.h"
+#include "images/atomic_file.h"
+#include "images/flip.h"
+#include "images/png.h"
+#include "images/strategy_sheet.h"
 
 #include <nlohmann/json.hpp>
 
@@ -44,10 +44,10 @@ std::string base64_floats(const std::vector<float>& values)
     return base64(bytes);
 }
 
-std::string base64_of(const Image& image)
+std::string base64_of(const images::Image& image)
 {
     std::vector<float> values;
-    for (const Rgb& pixel : image.pixels)
+    for (const images::Rgb& pixel : image.pixels)
         for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(pixel[c]));
     return base64_floats(values);
 }
@@ -70,10 +70,10 @@ std::string escaped(std::string_view text)
 }
 
 /// Stops that bring the picture's mean to a middle grey of 0.18, in whole stops; 0 for a black one.
-double exposure_for(const Image& image)
+double exposure_for(const images::Image& image)
 {
     double sum = 0.0;
-    for (const Rgb& pixel : image.pixels) sum += pixel.x + pixel.y + pixel.z;
+    for (const images::Rgb& pixel : image.pixels) sum += pixel.x + pixel.y + pixel.z;
     const double mean = sum / (3.0 * static_cast<double>(image.pixels.size()));
     return mean > 0.0 ? std::round(std::log2(0.18 / mean)) : 0.0;
 }
@@ -185,9 +185,9 @@ Json numbers_of(const Report& report)
 }
 
 /// The sheet of all layers that are named for a strategy, as a data URI; none if there is none.
-std::string sheet_of(const Layers& layers)
+std::string sheet_of(const images::Layers& layers)
 {
-    Strategies strategies;
+    images::Strategies strategies;
     for (const auto& [name, image] : layers) {
         int s = 0;
         int t = 0;
@@ -197,7 +197,7 @@ std::string sheet_of(const Layers& layers)
             strategies.emplace(std::pair(s, t), image);
     }
     if (strategies.empty()) return {};
-    return "data:image/png;base64," + base64(encode_png(strategy_sheet(strategies)));
+    return "data:image/png;base64," + base64(images::encode_png(images::strategy_sheet(strategies)));
 }
 
 } // namespace
@@ -210,7 +210,7 @@ std::string report_json(const Report& report)
 std::string report_page(const Report& report)
 {
     Json data = numbers_of(report);
-    const ErrorMap flip_map = flip(report.golden.mean, report.candidate);
+    const images::ErrorMap flip_map = images::flip(report.golden.mean, report.candidate);
     data["exposure"] = exposure_for(report.golden.mean);
     data["pictures"] = {{"golden", base64_of(report.golden.mean)},
                         {"candidate", base64_of(report.candidate)},
@@ -244,7 +244,7 @@ std::string report_page(const Report& report)
 
 void write_report(const std::filesystem::path& path, const Report& report)
 {
-    write_atomically(path, report_page(report));
+    images::write_atomically(path, report_page(report));
 }
 
 } // namespace golden

@@ -3,7 +3,7 @@
 // A comparison as numbers for machines and as a page for people.
 
 #include "golden/compare.h"
-#include "golden/exr.h"
+#include "images/exr.h"
 
 #include <filesystem>
 #include <string>
@@ -15,9 +15,10 @@ struct Report {
     std::string title;
     const Comparison& comparison;
     const Golden& golden;
-    const Image& candidate; // the mean of all its batches
-    Metadata candidate_metadata;
-    Layers strategies = {}; // of the candidate, by the names of ref::layer_name: "s2t3"; may be empty
+    const images::Image& candidate; // the mean of all its batches
+    images::Metadata candidate_metadata;
+    images::Layers strategies =
+        {}; // of the candidate, by the names of ref::layer_name: "s2t3"; may be empty
 };
 
 /// One JSON object: verdict, reason, p, per channel ratio, interval, smallest detectable error and what

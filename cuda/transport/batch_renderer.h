@@ -186,9 +186,9 @@ private:
     }
 
     /// The splats of picture i, see SplatTarget.
-    [[nodiscard]] golden::Image splats(std::size_t picture) const
+    [[nodiscard]] images::Image splats(std::size_t picture) const
     {
-        golden::Image image(width_, height_);
+        images::Image image(width_, height_);
         const std::size_t first = picture * pixels_;
         if (options_.deterministic) {
             const std::vector<ExactSum> sums = exact_.read(3 * first, 3 * std::size_t{pixels_});
@@ -197,12 +197,12 @@ private:
                                    sums[3 * i + 2].value()};
         } else {
             const std::vector<Rgb> sums = splats_.read(first, pixels_);
-            for (std::size_t i = 0; i < pixels_; ++i) image.pixels[i] = golden::Rgb(sums[i]);
+            for (std::size_t i = 0; i < pixels_; ++i) image.pixels[i] = images::Rgb(sums[i]);
         }
         return image;
     }
 
-    [[nodiscard]] golden::Dropped dropped() const
+    [[nodiscard]] images::Dropped dropped() const
     {
         const auto [count, key] = dropped_.read(1)[0];
         if (count == 0) return {};
@@ -218,17 +218,17 @@ private:
         const std::vector<Rgb> own = sums_.read(pixels_);
         for (std::size_t i = 0; i < pixels_; ++i)
             batch.mean.pixels[i] =
-                (golden::Rgb(own[i]) + batch.mean.pixels[i]) / static_cast<double>(options_.batch_size);
+                (images::Rgb(own[i]) + batch.mean.pixels[i]) / static_cast<double>(options_.batch_size);
         if (options_.layers == Layers::none) return batch;
         for (int k = 1; k <= options_.max_edges; ++k)
             for (int s = 0; s <= k; ++s) {
-                golden::Image image(width_, height_);
+                images::Image image(width_, height_);
                 if (s == k) {
                     image = splats(static_cast<std::size_t>(s));
                 } else {
                     const std::vector<Rgb> sums =
                         layers_.read(std::size_t{layer_of(s, k + 1 - s)} * pixels_, pixels_);
-                    for (std::size_t i = 0; i < pixels_; ++i) image.pixels[i] = golden::Rgb(sums[i]);
+                    for (std::size_t i = 0; i < pixels_; ++i) image.pixels[i] = images::Rgb(sums[i]);
                 }
                 batch.layers.emplace(std::pair(s, k + 1 - s), std::move(image));
             }

@@ -4,8 +4,8 @@
 
 #include "cuda/transport/mis_weight.h"
 #include "cuda/transport/needs.h"
-#include "golden/dropped.h"
-#include "golden/image.h"
+#include "images/dropped.h"
+#include "images/image.h"
 #include "scenes/scene.h"
 
 #include <cstdint>
@@ -46,9 +46,9 @@ struct Monitor {
 /// One batch: the mean per pixel, and by (s, t) the sums over its samples of what each strategy found,
 /// if layers were asked for.
 struct Batch {
-    golden::Image mean;
-    std::map<std::pair<int, int>, golden::Image> layers;
-    golden::Dropped dropped; // contributions that are not finite, which are in neither
+    images::Image mean;
+    std::map<std::pair<int, int>, images::Image> layers;
+    images::Dropped dropped; // contributions that are not finite, which are in neither
 };
 
 /// A scene made ready in the memory of a device.

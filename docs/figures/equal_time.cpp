@@ -7,7 +7,7 @@
 #include "cli/rounds.h"
 #include "docs/figures/measure.h"
 #include "docs/figures/program.h"
-#include "golden/image.h"
+#include "images/film.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/connect.h"
 #include "ref/transport/path_tracer.h"
@@ -37,7 +37,7 @@ constexpr std::array methods = {Method{"path", ref::trace_path},
                                 Method{"light", ref::trace_light}};
 
 struct Timed {
-    golden::Image image;
+    images::Image image;
     double samples;
     double seconds; // that they took
 };
@@ -45,13 +45,13 @@ struct Timed {
 /// As many samples per pixel as fit into the time; what was begun and not finished does not count.
 Timed render_for(const ref::World& world, ref::Integrator integrator, std::uint64_t seed, double seconds)
 {
-    golden::Film film(width, height);
+    images::Film film(width, height);
     const double start = figures::cpu_seconds();
     double kept = 0.0;
     ref::render(world, integrator, {{.seed = seed, .max_edges = max_edges}, 1U << 20, 1, 1}, film,
                 {{},
                  [&] { return kept > 0.0 && figures::cpu_seconds() - start > seconds; },
-                 [&](const golden::Film&) { kept = figures::cpu_seconds() - start; }});
+                 [&](const images::Film&) { kept = figures::cpu_seconds() - start; }});
     return {film.mean(), static_cast<double>(film.batches()) * width * height, kept};
 }
 
@@ -128,7 +128,7 @@ struct Rounds {
 Rounds measure(const scenes::Scene& scene, const figures::RoundOptions& options, std::mt19937_64& random)
 {
     const ref::World world(scene, width, height);
-    const golden::Image reference =
+    const images::Image reference =
         render_for(world, ref::trace_bidirectionally, options.seed, options.reference_seconds).image;
     Rounds values;
     std::vector<cli::Measurement> measurements;

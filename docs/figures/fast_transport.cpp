@@ -33,7 +33,7 @@ double wall_seconds()
 }
 
 struct Rendered {
-    golden::Image image;
+    images::Image image;
     double samples_per_second;
     double seconds;
 };
@@ -42,7 +42,7 @@ struct Rendered {
 template <class RenderBatch>
 Rendered render_for(double seconds, double (*clock)(), const RenderBatch& render_batch)
 {
-    golden::Film film(width, height);
+    images::Film film(width, height);
     std::uint64_t number = 0;
     render_batch(number); // caches and launch sizes
     const double start = clock();
@@ -90,7 +90,7 @@ constexpr std::array reference_integrators = {ref::trace_path, ref::trace_bidire
 /// One scene in the first table: rates, and what they are worth.
 void compare(const scenes::Scene& scene, const figures::RoundOptions& options, std::mt19937_64& random)
 {
-    const golden::Image truth =
+    const images::Image truth =
         fast(scene, gpu::Integrator::bdpt, 1, options.reference_seconds, options.seed).image;
     std::array<std::vector<double>, 2> efficiencies; // 1 / (relMSE s)
     std::vector<cli::Measurement> measurements;      // for each integrator: fast, reference, two threads

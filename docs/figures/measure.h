@@ -2,7 +2,7 @@
 
 // How renders are measured: their time and their error.
 
-#include "golden/image.h"
+#include "images/image.h"
 
 #include <ctime>
 
@@ -18,16 +18,16 @@ inline double cpu_seconds()
 
 /// Mean over pixels and channels of (image - reference)^2 / (reference^2 + 1e-4 m^2), m the mean of the
 /// reference: black pixels must not divide by zero.
-inline double relative_mean_square_error(const golden::Image& image, const golden::Image& reference)
+inline double relative_mean_square_error(const images::Image& image, const images::Image& reference)
 {
-    golden::Rgb mean(0.0);
+    images::Rgb mean(0.0);
     for (const auto& pixel : reference.pixels)
         mean += pixel / static_cast<double>(reference.pixels.size());
     const double m = (mean.x + mean.y + mean.z) / 3.0;
     double sum = 0.0;
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const golden::Rgb d = image.pixels[i] - reference.pixels[i];
-        const golden::Rgb r = reference.pixels[i];
+        const images::Rgb d = image.pixels[i] - reference.pixels[i];
+        const images::Rgb r = reference.pixels[i];
         sum += (d.x * d.x / (r.x * r.x + 1e-4 * m * m) + d.y * d.y / (r.y * r.y + 1e-4 * m * m) +
                 d.z * d.z / (r.z * r.z + 1e-4 * m * m)) /
                3.0;

@@ -4,10 +4,10 @@
 // figure_uniform_weights --help says how to call it.
 
 #include "docs/figures/program.h"
-#include "golden/file_ending.h"
-#include "golden/label.h"
-#include "golden/png.h"
-#include "golden/write_image.h"
+#include "images/file_ending.h"
+#include "images/label.h"
+#include "images/png.h"
+#include "images/write_image.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 #include "ref/transport/render.h"
@@ -44,9 +44,9 @@ Region region_of(const ref::World& world, int x, int y)
 }
 
 /// Of k edges, k strategies s = 1 ... k are counted, each with 1 / k; light seen directly is Case I.
-golden::Image with_uniform_weights(const ref::StrategyLayers& unweighted)
+images::Image with_uniform_weights(const ref::StrategyLayers& unweighted)
 {
-    golden::Image sum(width, height);
+    images::Image sum(width, height);
     for (const auto& [strategy, image] : unweighted.means()) {
         const auto [s, t] = strategy;
         const int k = s + t - 1;
@@ -57,23 +57,23 @@ golden::Image with_uniform_weights(const ref::StrategyLayers& unweighted)
 }
 
 /// One run of each method. The two weightings share their paths: they differ in the weights alone.
-std::array<golden::Image, methods> rendered(const ref::World& world, std::uint64_t run)
+std::array<images::Image, methods> rendered(const ref::World& world, std::uint64_t run)
 {
     ref::RenderOptions options{{.seed = run, .max_edges = max_edges},
                                samples_per_run / 4,
                                4,
                                std::max(1U, std::thread::hardware_concurrency())};
     ref::StrategyLayers unweighted(width, height, max_edges, false);
-    golden::Film bidirectional(width, height);
+    images::Film bidirectional(width, height);
     ref::render(world, ref::trace_bidirectionally, options, bidirectional, {}, &unweighted);
-    golden::Film unidirectional(width, height);
+    images::Film unidirectional(width, height);
     options.path.seed = run + 1000;
     ref::render(world, ref::trace_path, options, unidirectional);
     return {with_uniform_weights(unweighted), bidirectional.mean(), unidirectional.mean()};
 }
 
 /// Mean over channels of a region's pixels.
-std::array<double, regions> region_means(const golden::Image& image, const std::vector<Region>& region)
+std::array<double, regions> region_means(const images::Image& image, const std::vector<Region>& region)
 {
     std::array<double, regions> sum{};
     std::array<int, regions> count{};
@@ -93,7 +93,7 @@ void draw(const scenes::Scene& scene, const std::string& out)
         for (int x = 0; x < width; ++x) region.push_back(region_of(world, x, y));
 
     constexpr int label = 14;
-    golden::Image side_by_side(methods * width, height + label);
+    images::Image side_by_side(methods * width, height + label);
     std::array<std::array<std::vector<double>, regions>, methods> means;
     for (int run = 0; run < runs; ++run) {
         const auto images = rendered(world, static_cast<std::uint64_t>(run));
@@ -110,9 +110,9 @@ void draw(const scenes::Scene& scene, const std::string& out)
     }
     constexpr std::array names = {"1 / (i + j + 1)", "balance heuristic", "path tracing"};
     for (int method = 0; method < methods; ++method)
-        golden::draw_text(side_by_side, method * width + 4, 3, names[static_cast<std::size_t>(method)],
-                          golden::Rgb(0.8));
-    golden::write_png(out, side_by_side);
+        images::draw_text(side_by_side, method * width + 4, 3, names[static_cast<std::size_t>(method)],
+                          images::Rgb(0.8));
+    images::write_png(out, side_by_side);
 
     const auto statistics = [](const std::vector<double>& values) {
         double mean = 0.0;
@@ -151,9 +151,9 @@ int main(int argc, char** argv)
     app.add_option("scene", scene, "COLLADA file")->required();
     app.add_option("picture", out, "Picture: .png")->required();
     return figures::run(app, argc, argv, [&] {
-        if (!golden::has_ending(out, ".png"))
+        if (!images::has_ending(out, ".png"))
             throw std::invalid_argument(out + ": the name of the picture must end in .png");
-        golden::check_writable(out);
+        images::check_writable(out);
         draw(figures::read_scene(scene), out);
     });
 }

@@ -59,7 +59,7 @@ public:
         if (stopped_) return false;
         if (dropped_.count > 0) {
             if (!monitor.dropped)
-                throw std::runtime_error(golden::describe(dropped_, world_.camera.width()));
+                throw std::runtime_error(images::describe(dropped_, world_.camera.width()));
             monitor.dropped(dropped_);
         }
         for (std::size_t i = 0; i < sum_.pixels.size(); ++i)
@@ -69,7 +69,7 @@ public:
     }
 
     /// The mean per pixel.
-    [[nodiscard]] const golden::Image& mean() const { return sum_; }
+    [[nodiscard]] const images::Image& mean() const { return sum_; }
     [[nodiscard]] const std::optional<StrategyLayers>& layers() const { return layers_; }
 
 private:
@@ -82,7 +82,7 @@ private:
                     stopped_ = true;
                     break;
                 }
-                golden::Dropped dropped;
+                images::Dropped dropped;
                 std::vector<Contribution> splats = sample_tile(tiles_[tile], dropped);
                 const std::scoped_lock lock(mutex_);
                 dropped_ += dropped;
@@ -104,7 +104,7 @@ private:
     /// Adds what the tile's samples show on their own pixels, and returns what they splat on any pixel:
     /// the light image, t = 1. No other thread touches the tile's pixels, nor its layers of t > 1 there.
     /// What is not finite goes to `dropped`.
-    std::vector<Contribution> sample_tile(const Tile& tile, golden::Dropped& dropped)
+    std::vector<Contribution> sample_tile(const Tile& tile, images::Dropped& dropped)
     {
         std::vector<Contribution> contributions;
         std::vector<Contribution> splats;
@@ -138,7 +138,7 @@ private:
         }
     }
 
-    void add(const Contribution& c, golden::Image& sum)
+    void add(const Contribution& c, images::Image& sum)
     {
         sum.pixels[c.pixel] += c.weight * c.value;
         if (layers_) layers_->add(c);
@@ -149,7 +149,7 @@ private:
     const RenderOptions& options_;
     std::uint64_t number_;
     std::vector<Tile> tiles_;
-    golden::Image sum_; // in the end, the mean
+    images::Image sum_; // in the end, the mean
     std::optional<StrategyLayers> layers_;
 
     std::atomic<std::size_t> next_tile_ = 0;
@@ -158,14 +158,14 @@ private:
     std::size_t tiles_done_ = 0;
     std::vector<std::optional<std::vector<Contribution>>> waiting_; // per tile that is done: its splats
     std::size_t next_splats_ = 0;                                   // of the first tile that is not
-    golden::Image splat_sum_;
-    golden::Dropped dropped_;
+    images::Image splat_sum_;
+    images::Dropped dropped_;
     std::exception_ptr error_;
 };
 
 } // namespace
 
-bool render(const World& world, Integrator integrator, const RenderOptions& options, golden::Film& film,
+bool render(const World& world, Integrator integrator, const RenderOptions& options, images::Film& film,
             const Monitor& monitor, StrategyLayers* layers)
 {
     const auto same_size = [&](int width, int height) {
@@ -185,7 +185,7 @@ bool render(const World& world, Integrator integrator, const RenderOptions& opti
     return true;
 }
 
-std::optional<golden::Image> render_batch(const World& world, Integrator integrator,
+std::optional<images::Image> render_batch(const World& world, Integrator integrator,
                                           const RenderOptions& options, std::uint64_t number,
                                           const Monitor& monitor)
 {

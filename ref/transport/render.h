@@ -2,8 +2,8 @@
 
 // From samples to a picture: batches of samples, tiles of pixels, threads over tiles.
 
-#include "golden/dropped.h"
-#include "golden/image.h"
+#include "images/dropped.h"
+#include "images/film.h"
 #include "ref/transport/strategy_layers.h"
 #include "ref/transport/world.h"
 
@@ -25,12 +25,12 @@ struct RenderOptions {
 struct Monitor {
     std::function<void(double done)> progress = {}; // batches done, with the part of the present one
     std::function<bool()> stop = {};                // asked between tiles: true ends the render soon
-    std::function<void(const golden::Film&)> kept =
+    std::function<void(const images::Film&)> kept =
         {}; // after each batch, with the film as it stands then
-    std::function<void(const golden::Image&)> batch = {}; // each batch's mean, before `kept`
+    std::function<void(const images::Image&)> batch = {}; // each batch's mean, before `kept`
     /// After a batch of which contributions that are not finite were left out. Empty: then that is an
     /// error.
-    std::function<void(const golden::Dropped&)> dropped = {};
+    std::function<void(const images::Dropped&)> dropped = {};
 };
 
 /// Adds batches to `film`, which may come from an earlier, shorter render, until it holds as many as
@@ -40,12 +40,12 @@ struct Monitor {
 /// reported to `monitor`. `layers`, if there are any, receive the same batches strategy by strategy.
 /// Throws std::invalid_argument if film, layers and camera differ in size, std::runtime_error for
 /// contributions that are not finite if `monitor` does not take the report.
-bool render(const World& world, Integrator integrator, const RenderOptions& options, golden::Film& film,
+bool render(const World& world, Integrator integrator, const RenderOptions& options, images::Film& film,
             const Monitor& monitor = {}, StrategyLayers* layers = nullptr);
 
 /// The mean per pixel of the batch `number` alone: what render adds to a film that holds that many
 /// batches. None if `monitor` said stop; of it `progress`, `stop` and `dropped` are called.
-std::optional<golden::Image> render_batch(const World& world, Integrator integrator,
+std::optional<images::Image> render_batch(const World& world, Integrator integrator,
                                           const RenderOptions& options, std::uint64_t number,
                                           const Monitor& monitor = {});
 

@@ -22,7 +22,7 @@ StrategyLayers::StrategyLayers(int width, int height, int max_edges, bool weight
     if (max_edges < 1 || max_edges > most_edges_of_layers)
         throw std::invalid_argument("a picture for each strategy needs paths of at most " +
                                     std::to_string(most_edges_of_layers) + " edges");
-    sums_.assign(index_of(max_edges, 1) + 1, golden::Image(width, height));
+    sums_.assign(index_of(max_edges, 1) + 1, images::Image(width, height));
 }
 
 void StrategyLayers::add(const Contribution& contribution)
@@ -39,12 +39,12 @@ void StrategyLayers::add_batch(const StrategyLayers& batch, std::uint32_t sample
     samples_ += samples;
 }
 
-std::map<std::pair<int, int>, golden::Image> StrategyLayers::means() const
+std::map<std::pair<int, int>, images::Image> StrategyLayers::means() const
 {
-    std::map<std::pair<int, int>, golden::Image> result;
+    std::map<std::pair<int, int>, images::Image> result;
     for (int k = 1; k <= max_edges_; ++k)
         for (int s = 0; s <= k; ++s) {
-            golden::Image image = sums_[index_of(s, k + 1 - s)];
+            images::Image image = sums_[index_of(s, k + 1 - s)];
             const bool dark = std::all_of(image.pixels.begin(), image.pixels.end(),
                                           [](const Rgb& pixel) { return pixel == Rgb(0.0); });
             if (dark) continue;

@@ -2,7 +2,7 @@
 
 // The picture of every strategy (s, t) by itself: what each contributes, or what each would show alone.
 
-#include "golden/image.h"
+#include "images/image.h"
 #include "ref/transport/world.h"
 
 #include <map>
@@ -34,7 +34,7 @@ public:
     void add_batch(const StrategyLayers& batch, std::uint32_t samples);
 
     /// The mean pictures so far, by (s, t), of those strategies that found anything at all.
-    [[nodiscard]] std::map<std::pair<int, int>, golden::Image> means() const;
+    [[nodiscard]] std::map<std::pair<int, int>, images::Image> means() const;
 
 private:
     int width_;
@@ -42,7 +42,7 @@ private:
     int max_edges_;
     bool weighted_;
     std::uint64_t samples_ = 0;
-    std::vector<golden::Image> sums_; // strategy (s, t) at index_of(s, t)
+    std::vector<images::Image> sums_; // strategy (s, t) at index_of(s, t)
 };
 
 /// The name of a strategy's layer in a picture file: "s2t3".

@@ -3,7 +3,7 @@
 // tables.
 
 #include "cli/progress.h"
-#include "golden/atomic_file.h"
+#include "images/atomic_file.h"
 #include "tests/calibration/experiments.h"
 
 #include <algorithm>
@@ -116,7 +116,7 @@ void write_false_alarms(std::ostream& out, const Tick& tick)
     out << "| all | " << with_interval(all.suspected) << " | " << all.failed.hits << " of "
         << all.failed.trials << " | | | | |\n\n";
     // The functionals depend on the size of the picture alone.
-    golden::Pilot pilot{golden::Image(128, 128), golden::Image(128, 128), 512};
+    golden::Pilot pilot{images::Image(128, 128), images::Image(128, 128), 512};
     const golden::Functionals functionals(pilot);
     const golden::CompareOptions options;
     const double bound =
@@ -234,7 +234,7 @@ void calibrate(const std::string& file, const std::vector<std::string>& names)
         if (names.empty() || std::find(names.begin(), names.end(), table.name) != names.end())
             chosen.push_back(table);
     if (chosen.size() < names.size()) throw std::runtime_error("there is no such table");
-    for (const Table& table : chosen) replace_table(golden::read_file(file), table.name, ""); // a place?
+    for (const Table& table : chosen) replace_table(images::read_file(file), table.name, ""); // a place?
     for (const Table& table : chosen) {
         std::ostringstream out;
         {
@@ -247,7 +247,7 @@ void calibrate(const std::string& file, const std::vector<std::string>& names)
             });
         }
         std::cout << out.str() << std::flush;
-        golden::write_atomically(file, replace_table(golden::read_file(file), table.name, out.str()));
+        images::write_atomically(file, replace_table(images::read_file(file), table.name, out.str()));
     }
 }
 

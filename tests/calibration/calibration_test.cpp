@@ -52,7 +52,7 @@ TEST_P(FalseAlarm, OfASinglePictureIsRareHoweverManySamplesItHas)
             golden::GoldenMaker maker(32, 32, 64);
             for (std::uint64_t batch = 0; batch < 64 + 128; ++batch)
                 maker.add_batch(renderer.render(1000 + trial, batch));
-            golden::Film film(32, 32);
+            images::Film film(32, 32);
             for (std::uint64_t batch = 0; batch < batches; ++batch)
                 film.add_batch(renderer.render(2000 + trial, batch));
             const golden::CompareOptions options;

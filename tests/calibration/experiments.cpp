@@ -167,17 +167,17 @@ std::vector<Count> measure_other_criteria(Noise noise, const Bias& bias, const P
 {
     const SimulatedRenderer renderer(plan.size, noise);
     const auto film_of = [&](std::uint64_t seed, std::uint64_t batches, const Bias& wrong) {
-        golden::Film film(plan.size, plan.size);
+        images::Film film(plan.size, plan.size);
         for (std::uint64_t batch = 0; batch < batches; ++batch)
             film.add_batch(renderer.render(seed, batch, wrong));
         return film;
     };
     const std::uint64_t golden_batches = plan.pilot + plan.reference;
-    const golden::Film reference = film_of(mix(plan.seed), golden_batches, {});
+    const images::Film reference = film_of(mix(plan.seed), golden_batches, {});
     // The golden knows its noise best: its standard error, for the difference from 64 batches.
-    golden::Image error = reference.standard_error();
+    images::Image error = reference.standard_error();
     const auto all = static_cast<double>(golden_batches);
-    for (golden::Rgb& pixel : error.pixels)
+    for (images::Rgb& pixel : error.pixels)
         pixel *= std::sqrt(1.0 + all / static_cast<double>(first_stage));
 
     const auto trials = static_cast<std::size_t>(plan.trials);
@@ -186,8 +186,8 @@ std::vector<Count> measure_other_criteria(Noise noise, const Bias& bias, const P
     std::vector<std::vector<double>> wrong = right;
     for_each_index(plan.trials, plan.threads, [&](int i) {
         const std::uint64_t seed = mix(plan.seed) + 10 * static_cast<std::uint64_t>(i + 1);
-        const golden::Film right_film = film_of(seed, first_stage, {});
-        const golden::Film wrong_film = film_of(seed + 1, first_stage, bias);
+        const images::Film right_film = film_of(seed, first_stage, {});
+        const images::Film wrong_film = film_of(seed + 1, first_stage, bias);
         for (std::size_t k = 0; k < criteria.size(); ++k) {
             const auto at = static_cast<std::size_t>(i);
             right[k][at] = criteria[k].badness(right_film.mean(), reference.mean(), error);

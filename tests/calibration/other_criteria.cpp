@@ -9,8 +9,8 @@ namespace calibration {
 
 namespace {
 
-using golden::Image;
-using golden::Rgb;
+using images::Image;
+using images::Rgb;
 
 double root_mean_square(const Image& picture, const Image& reference, const Image&)
 {

@@ -2,7 +2,7 @@
 
 // What else pictures are compared by, to see what it would have found.
 
-#include "golden/image.h"
+#include "images/image.h"
 
 #include <string>
 #include <vector>
@@ -12,8 +12,8 @@ namespace calibration {
 /// A number by which a picture is found worse, the larger it is.
 struct Criterion {
     std::string name;
-    double (*badness)(const golden::Image& picture, const golden::Image& reference,
-                      const golden::Image& error_of_difference);
+    double (*badness)(const images::Image& picture, const images::Image& reference,
+                      const images::Image& error_of_difference);
 };
 
 /// Root mean square error; 1 - SSIM [Wang et al. 2004], in windows of 8x8 pixels, of luminance with a

@@ -90,18 +90,18 @@ SimulatedRenderer::SimulatedRenderer(int size, Noise noise)
         for (int x = 0; x < size; ++x) {
             const double u = (x + 0.5) / size;
             const double v = (y + 0.5) / size;
-            Place place{lit, golden::Rgb(0.7, 0.6, 0.5) * (0.3 + 0.5 * u + 0.2 * v)};
+            Place place{lit, images::Rgb(0.7, 0.6, 0.5) * (0.3 + 0.5 * u + 0.2 * v)};
             if (u < 0.5 && v >= 0.5) place = {shadow, 0.1 * place.mean};
             if (std::hypot(x - 0.7 * size, y - 0.7 * size) <= caustic_radius)
                 place = {caustic, 3.0 * place.mean};
-            if (u + v < 0.1) place = {black, golden::Rgb(0.0)};
+            if (u + v < 0.1) place = {black, images::Rgb(0.0)};
             places_.push_back(place);
         }
 }
 
-golden::Image SimulatedRenderer::render(std::uint64_t seed, std::uint64_t batch, const Bias& bias) const
+images::Image SimulatedRenderer::render(std::uint64_t seed, std::uint64_t batch, const Bias& bias) const
 {
-    golden::Image image(size_, size_);
+    images::Image image(size_, size_);
     const std::array<double, 3> factor = {bias.everywhere, bias.everywhere * bias.in_shadow,
                                           bias.everywhere * bias.in_caustic};
     const std::uint64_t key = mix(mix(seed) ^ batch);
@@ -113,7 +113,7 @@ golden::Image SimulatedRenderer::render(std::uint64_t seed, std::uint64_t batch,
         const std::vector<float>& population = population_[place.part];
         const double red_green = population[word & mask] * factor[place.part];
         const double blue = population[(word >> 32) & mask] * factor[place.part];
-        image.pixels[i] = place.mean * golden::Rgb(red_green, red_green, blue);
+        image.pixels[i] = place.mean * images::Rgb(red_green, red_green, blue);
     }
     return image;
 }

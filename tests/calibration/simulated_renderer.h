@@ -3,7 +3,7 @@
 // A renderer of which everything is known: a picture, times noise of mean 1 whose tail can be chosen.
 // What it takes hours to render it draws in seconds, as often as the rates of errors need.
 
-#include "golden/image.h"
+#include "images/image.h"
 
 #include <array>
 #include <cstdint>
@@ -41,14 +41,14 @@ public:
 
     /// Batch number `batch` of the render with this seed. Red and green have the same noise, as under
     /// white light; that of blue is independent.
-    [[nodiscard]] golden::Image render(std::uint64_t seed, std::uint64_t batch,
+    [[nodiscard]] images::Image render(std::uint64_t seed, std::uint64_t batch,
                                        const Bias& bias = {}) const;
 
 private:
     enum Part : std::uint8_t { lit, shadow, caustic, black };
     struct Place {
         Part part;
-        golden::Rgb mean;
+        images::Rgb mean;
     };
     int size_;
     std::vector<Place> places_;

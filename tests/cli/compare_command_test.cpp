@@ -1,7 +1,7 @@
 // `plumbline compare`: the verdict, the exit status, and what cannot be compared.
 
-#include "golden/exr.h"
-#include "golden/pfm.h"
+#include "images/exr.h"
+#include "images/pfm.h"
 #include "tests/cli/run_program.h"
 
 #include <gtest/gtest.h>
@@ -51,10 +51,10 @@ protected:
     /// The candidate's mean, altered, as another renderer would give it.
     [[nodiscard]] std::string altered(double factor) const
     {
-        golden::Image image = golden::read_exr(candidate).mean;
-        for (golden::Rgb& pixel : image.pixels) pixel *= factor;
+        images::Image image = images::read_exr(candidate).mean;
+        for (images::Rgb& pixel : image.pixels) pixel *= factor;
         const std::string path = (folder / "altered.pfm").string();
-        golden::write_pfm(path, image);
+        images::write_pfm(path, image);
         return path;
     }
 };
@@ -173,7 +173,7 @@ TEST_F(CompareCommand, PicturesThatAreNotIndependentAreRefused)
     EXPECT_NE(outcome.err.find("Does the renderer ignore its seed?"), std::string::npos) << outcome.err;
     // The golden's own pixels, without its metadata.
     const std::string pixels = (folder / "pixels.pfm").string();
-    golden::write_pfm(pixels, golden::read_exr(golden_file).mean);
+    images::write_pfm(pixels, images::read_exr(golden_file).mean);
     const Outcome own = compare({pixels}, {"-s", "768"});
     EXPECT_EQ(own.status, 2);
     EXPECT_NE(own.err.find("pixels.pfm: has the golden's own noise"), std::string::npos) << own.err;
@@ -182,11 +182,11 @@ TEST_F(CompareCommand, PicturesThatAreNotIndependentAreRefused)
 TEST_F(CompareCommand, OddPixelsAreNamedBeforeAllStatistics)
 {
     render(candidate, {"--integrator", "bdpt"});
-    golden::Image image = golden::read_exr(candidate).mean;
+    images::Image image = images::read_exr(candidate).mean;
     image.at(3, 12).g = -5.0;
     image.at(9, 13).r = 200.0;
     const std::string odd = (folder / "odd.pfm").string();
-    golden::write_pfm(odd, image);
+    images::write_pfm(odd, image);
     const Outcome outcome = compare({odd}, {"-s", "512"});
     EXPECT_EQ(outcome.status, 1) << outcome.err;
     EXPECT_EQ(outcome.out.rfind("FAIL  1 pixel is negative, which radiance cannot be: green of pixel "
@@ -226,11 +226,11 @@ TEST_F(CompareCommand, ALayerIsChosenByName)
 {
     // The picture as a layer beside another one, as renderers write that have several.
     render(candidate, {"--integrator", "bdpt"});
-    const golden::Image image = golden::read_exr(candidate).mean;
-    golden::Film darker(image.width, image.height);
-    darker.add_batch(golden::Image(image.width, image.height));
+    const images::Image image = images::read_exr(candidate).mean;
+    images::Film darker(image.width, image.height);
+    darker.add_batch(images::Image(image.width, image.height));
     const std::string layers = (folder / "layers.exr").string();
-    golden::write_exr(layers, darker, {}, {{"View.Combined", image}}, golden::FilmState::omit);
+    images::write_exr(layers, darker, {}, {{"View.Combined", image}}, images::FilmState::omit);
     EXPECT_EQ(compare({layers}, {"-s", "512"}).status, 1); // black
     const Outcome chosen = compare({layers}, {"-s", "512", "--layer", "View.Combined"});
     EXPECT_EQ(chosen.status, 0) << chosen.out << chosen.err;
@@ -289,9 +289,9 @@ TEST_F(CompareCommand, WhatCannotBeComparedIsSaidInOneLine)
     const std::string other_scene = (folder / "scene.exr").string();
     render(other_scene, {}, "spot_over_plane");
     const std::string not_a_number = (folder / "nan.pfm").string();
-    golden::Image broken(16, 16);
+    images::Image broken(16, 16);
     broken.at(3, 4).y = std::numeric_limits<double>::quiet_NaN();
-    golden::write_pfm(not_a_number, broken);
+    images::write_pfm(not_a_number, broken);
 
     const struct {
         Arguments arguments;

@@ -1,7 +1,7 @@
 // `plumbline render --device host|cuda`: the same options, files and manners as the reference.
 
 #include "cuda/device.h"
-#include "golden/exr.h"
+#include "images/exr.h"
 #include "tests/cli/run_program.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST_F(FastRender, TakesEveryIntegratorAndSaysWhoRendered)
         EXPECT_EQ(json["device"], "host");
         EXPECT_EQ(json["integrator"], integrator);
         EXPECT_GT(json["mean_rgb"][0].get<double>(), 0.0);
-        const golden::ExrPicture picture = golden::read_exr(out);
+        const images::ExrPicture picture = images::read_exr(out);
         EXPECT_EQ(picture.metadata.at("device"), "host");
         EXPECT_EQ(picture.metadata.at("samples"), "8");
         EXPECT_TRUE(picture.film);
@@ -56,9 +56,9 @@ TEST_F(FastRender, OptionsReachTheRenderer)
 {
     const auto with = [&](const Arguments& more) {
         EXPECT_EQ(run(render(out, "4") + Arguments{"--integrator", "bdpt", "-t", "1"} + more).status, 0);
-        return golden::read_exr(out).mean;
+        return images::read_exr(out).mean;
     };
-    const golden::Image plain = with({});
+    const images::Image plain = with({});
     EXPECT_TRUE(plain == with({}));
     EXPECT_FALSE(plain == with({"--seed", "1"}));
     EXPECT_FALSE(plain == with({"--heuristic", "power"}));
@@ -76,7 +76,7 @@ TEST_F(FastRender, InterruptedAndResumedItGivesTheSamePicture)
     const Outcome outcome = process.finish();
     EXPECT_EQ(outcome.status, 130);
     EXPECT_NE(outcome.err.find("interrupted: kept "), std::string::npos) << outcome.err;
-    const auto held = std::stoull(golden::read_exr(out).metadata.at("samples"));
+    const auto held = std::stoull(images::read_exr(out).metadata.at("samples"));
     const std::string all = std::to_string(held + 8);
     const Arguments exactly = {"--integrator", "bdpt", "--deterministic"};
     ASSERT_EQ(run(render(out, all) + exactly + Arguments{"--resume"}).status, 0);
@@ -92,8 +92,8 @@ TEST_F(FastRender, WritesLayersAndTheirSheet)
         run(render(out, "8") + Arguments{"--integrator", "bdpt", "--max-edges", "4", "--strategies",
                                          layers, "--strategies-picture", sheet});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    const golden::ExrPicture picture = golden::read_exr(layers);
-    golden::Image sum(picture.mean.width, picture.mean.height);
+    const images::ExrPicture picture = images::read_exr(layers);
+    images::Image sum(picture.mean.width, picture.mean.height);
     for (const auto& [name, layer] : picture.layers)
         for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += layer.pixels[i];
     EXPECT_TRUE(picture.layers.contains("s2t2"));

@@ -90,12 +90,12 @@ TEST_F(GoldenCommand, NeverGoesOnFromAnotherOne)
     Process process(golden("2147483648", {"--watch", "0"}));
     ASSERT_TRUE(eventually([&] {
         return std::filesystem::exists(file) &&
-               std::stoull(golden::read_exr(file).metadata.at("samples")) > 20;
+               std::stoull(images::read_exr(file).metadata.at("samples")) > 20;
     }));
     process.send(SIGINT);
     ASSERT_EQ(process.finish().status, 130);
     const std::string bytes = read_bytes(file);
-    const std::string held = golden::read_exr(file).metadata.at("samples");
+    const std::string held = images::read_exr(file).metadata.at("samples");
     const std::string more = std::to_string(std::stoull(held) + 64);
     Arguments other_size = golden(more);
     std::replace(other_size.begin(), other_size.end(), std::string("12x8"), std::string("24x8"));
@@ -161,7 +161,7 @@ TEST_F(GoldenCommand, InterruptedAndResumedGivesTheBitsOfAnUninterruptedRun)
     EXPECT_EQ(outcome.status, 130);
     EXPECT_NE(outcome.err.find("goes on from here"), std::string::npos) << outcome.err;
 
-    const auto held = std::stoull(golden::read_exr(file).metadata.at("samples"));
+    const auto held = std::stoull(images::read_exr(file).metadata.at("samples"));
     ASSERT_GT(held, 0u);
     const std::string samples = std::to_string(held + 64);
     ASSERT_EQ(run(golden(samples, {"-t", "2"})).status, 0);
@@ -187,7 +187,7 @@ TEST_F(GoldenCommand, VerifyFindsABatchThatWasAltered)
 {
     // What says of itself that it was rendered like the others, and is dimmer by 1%.
     ASSERT_EQ(run(golden()).status, 0);
-    const golden::Metadata metadata = golden::read_golden(file).metadata;
+    const images::Metadata metadata = golden::read_golden(file).metadata;
     const std::string batches = (folder / "batches.exr").string();
     ASSERT_EQ(run({"render", scene_file("cornell_glass"), "-o", batches, "--size", "12x8", "-s", "64",
                    "--integrator", "bdpt", "--max-edges", "6", "--seed", metadata.at("seed"),
@@ -195,14 +195,14 @@ TEST_F(GoldenCommand, VerifyFindsABatchThatWasAltered)
                   .status,
               0);
     golden::GoldenMaker maker(12, 8, 4);
-    for (const auto& [name, batch] : golden::read_exr(batches).layers) {
-        golden::Image altered = batch;
+    for (const auto& [name, batch] : images::read_exr(batches).layers) {
+        images::Image altered = batch;
         if (maker.film().batches() == 9)
-            for (golden::Rgb& pixel : altered.pixels) pixel *= 0.99;
+            for (images::Rgb& pixel : altered.pixels) pixel *= 0.99;
         maker.add_batch(altered);
     }
     ASSERT_EQ(maker.film().batches(), 16u);
-    maker.write(file, metadata, golden::FilmState::omit);
+    maker.write(file, metadata, images::FilmState::omit);
     const Outcome outcome = run(golden("64", {"--verify", "16"}));
     EXPECT_EQ(outcome.status, 1) << outcome.err;
     EXPECT_EQ(outcome.out, "cornell_glass: batch 9 is another one now\n");

@@ -1,6 +1,6 @@
 // Ctrl-C and SIGTERM keep what is done, and going on from there gives the picture that would have been.
 
-#include "golden/exr.h"
+#include "images/exr.h"
 #include "tests/cli/run_program.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ protected:
     }
     [[nodiscard]] std::uint64_t samples_held() const
     {
-        return std::stoull(golden::read_exr(out).metadata.at("samples"));
+        return std::stoull(images::read_exr(out).metadata.at("samples"));
     }
     void expect_as_if_never_interrupted(std::uint64_t samples)
     {
@@ -51,7 +51,7 @@ TEST_P(Interrupt, KeepsWholeBatchesAndSaysHowMany)
     const Outcome outcome = interrupted(GetParam());
     EXPECT_EQ(outcome.status, 130);
     EXPECT_EQ(outcome.out, "");
-    const golden::ExrPicture picture = golden::read_exr(out);
+    const images::ExrPicture picture = images::read_exr(out);
     const std::uint64_t held = samples_held();
     EXPECT_GT(held, 0u);
     EXPECT_EQ(held % 4, 0u);
@@ -127,13 +127,13 @@ TEST_F(Interrupt, LayersAndSheetAreRewrittenWhileRendering)
                                                               "--strategies-picture", sheet});
         ASSERT_TRUE(eventually([&] { return std::filesystem::exists(sheet); })) << device;
         const auto samples = [&] {
-            return std::stoull(golden::read_exr(layers).metadata.at("samples"));
+            return std::stoull(images::read_exr(layers).metadata.at("samples"));
         };
         const std::uint64_t first = samples();
         const std::string first_sheet = read_bytes(sheet);
         EXPECT_TRUE(eventually([&] { return samples() > first; })) << device;
         EXPECT_TRUE(eventually([&] { return read_bytes(sheet) != first_sheet; })) << device;
-        const golden::ExrPicture growing = golden::read_exr(layers);
+        const images::ExrPicture growing = images::read_exr(layers);
         EXPECT_TRUE(growing.layers.contains("s2t1"));
         EXPECT_EQ(growing.metadata.at("interrupted"), "before 2147483648 samples");
         process.send(SIGINT);

@@ -1,7 +1,7 @@
 // `plumbline render` where all goes well: what it prints, what it writes, what changes the picture.
 
-#include "golden/exr.h"
-#include "golden/pfm.h"
+#include "images/exr.h"
+#include "images/pfm.h"
 #include "tests/cli/run_program.h"
 
 #include <gtest/gtest.h>
@@ -99,10 +99,10 @@ TEST(Render, WritesEveryFormatThatIsAskedForAtOnce)
                     (folder / "d.exr").string()}));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(folder.entries(), 4u);
-    const golden::ExrPicture exr = golden::read_exr(folder / "a.exr");
+    const images::ExrPicture exr = images::read_exr(folder / "a.exr");
     EXPECT_EQ(exr.mean.width, 24);
     EXPECT_EQ(exr.mean.height, 16);
-    EXPECT_EQ(exr.mean, golden::read_pfm(folder / "b.pfm"));
+    EXPECT_EQ(exr.mean, images::read_pfm(folder / "b.pfm"));
     EXPECT_EQ(read_bytes(folder / "c.png").substr(1, 3), "PNG");
     EXPECT_EQ(read_bytes(folder / "a.exr"), read_bytes(folder / "d.exr"));
 }
@@ -112,7 +112,7 @@ TEST(Render, TheExrSaysHowItWasMade)
     const TemporaryFolder folder;
     ASSERT_EQ(
         run(render("cornell_glass", folder / "a.exr", {"--seed", "17", "--max-edges", "5"})).status, 0);
-    const golden::ExrPicture exr = golden::read_exr(folder / "a.exr");
+    const images::ExrPicture exr = images::read_exr(folder / "a.exr");
     const auto said = [&](const char* name) {
         const auto found = exr.metadata.find(name);
         return found == exr.metadata.end() ? "(nothing)" : found->second;
@@ -140,15 +140,15 @@ TEST(Render, AnyCaseOfAnEndingWillDo)
                     "--max-edges", "3", "--keep-batches", "--exposure", "1"}));
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(folder.entries(), 5u);
-    const golden::ExrPicture exr = golden::read_exr(folder / "A.EXR");
-    EXPECT_EQ(exr.mean, golden::read_pfm(folder / "B.Pfm"));
+    const images::ExrPicture exr = images::read_exr(folder / "A.EXR");
+    EXPECT_EQ(exr.mean, images::read_pfm(folder / "B.Pfm"));
     EXPECT_EQ(exr.layers.size(), 2u) << "the batches";
     EXPECT_EQ(read_bytes(folder / "C.PNG").substr(1, 3), "PNG");
     ASSERT_EQ(run(render("cornell_glass", folder / "B.EXR")).status, 0);
     const Outcome resumed =
         run(render("cornell_glass", folder / "B.EXR", {"--resume"}, {"--size", "24x16", "-s", "12"}));
     EXPECT_EQ(resumed.status, 0) << resumed.err;
-    EXPECT_EQ(golden::read_exr(folder / "B.EXR").metadata.at("samples"), "12");
+    EXPECT_EQ(images::read_exr(folder / "B.EXR").metadata.at("samples"), "12");
 }
 
 // Without --batch: the largest of 4, 3, 2 and 1 that divides the samples.
@@ -166,7 +166,7 @@ TEST(Render, AnyNumberOfSamplesIsWholeBatches)
         const Outcome outcome = run(
             render("point_over_plane", folder / "a.exr", {"--json"}, {"--size", "6x4", "-s", samples}));
         ASSERT_EQ(outcome.status, 0) << samples << outcome.err;
-        EXPECT_EQ(golden::read_exr(folder / "a.exr").metadata.at("batch_size"), batch) << samples;
+        EXPECT_EQ(images::read_exr(folder / "a.exr").metadata.at("batch_size"), batch) << samples;
         const auto json = nlohmann::json::parse(outcome.out);
         EXPECT_EQ(std::to_string(json.at("batch_size").get<int>()), batch) << samples;
         EXPECT_EQ(std::to_string(json.at("samples_per_pixel").get<int>()), samples);
@@ -186,7 +186,7 @@ TEST(Render, CountsMayHaveAnExponent)
         const Outcome outcome = run(render("point_over_plane", folder / "a.exr", {"-t", "1e0"},
                                            {"--size", "1x1", "--batch", "1e1", "-s", written}));
         EXPECT_EQ(outcome.status, 0) << outcome.err;
-        return golden::read_exr(folder / "a.exr").metadata.at("samples");
+        return images::read_exr(folder / "a.exr").metadata.at("samples");
     };
     EXPECT_EQ(samples("1e3"), "1000");
     EXPECT_EQ(samples("1.5E+2"), "150");
@@ -195,7 +195,7 @@ TEST(Render, CountsMayHaveAnExponent)
     const Outcome made = run({"golden", scene_file("point_over_plane"), "--folder",
                               folder.path().string(), "--size", "6x4", "--pilot", "4", "-s", "1.6e2"});
     EXPECT_EQ(made.status, 0) << made.err;
-    EXPECT_EQ(golden::read_exr(folder / "point_over_plane.exr").metadata.at("samples"), "160");
+    EXPECT_EQ(images::read_exr(folder / "point_over_plane.exr").metadata.at("samples"), "160");
 }
 
 // It asks for what the reference does anyway, and so is no option without effect.
@@ -231,7 +231,7 @@ TEST(Render, JsonIsOneObjectWithWhatAScriptNeeds)
     EXPECT_GT(json.at("peak_rss_bytes").get<double>(), 1e5);
     ASSERT_EQ(json.at("mean_rgb").size(), 3u);
 
-    const golden::Image mean = golden::read_exr(folder / "a.exr").film->mean();
+    const images::Image mean = images::read_exr(folder / "a.exr").film->mean();
     glm::dvec3 sum(0.0);
     for (const auto& pixel : mean.pixels) sum += pixel;
     for (int i = 0; i < 3; ++i) // summed in the same order: equal but for the digits printed
@@ -244,7 +244,7 @@ TEST(Render, JsonIsOneObjectWithWhatAScriptNeeds)
 std::array<double, 3> scatter_of_batches(const std::filesystem::path& file)
 {
     std::vector<glm::dvec3> means;
-    for (const auto& [name, batch] : golden::read_exr(file).layers) {
+    for (const auto& [name, batch] : images::read_exr(file).layers) {
         means.emplace_back(0.0);
         for (const auto& pixel : batch.pixels) means.back() += pixel / double(batch.pixels.size());
     }
@@ -297,10 +297,10 @@ TEST(Render, JsonOfAResumedRenderTakesItsErrorFromTheBatchesOfThisRun)
                          {"--size", "24x16", "--batch", "4", "-s", "40"}))
                   .status,
               0);
-    golden::ExrPicture last = golden::read_exr(folder / "all.exr");
+    images::ExrPicture last = images::read_exr(folder / "all.exr");
     for (const char* first : {"batch.0000", "batch.0001", "batch.0002"})
         ASSERT_EQ(last.layers.erase(first), 1u);
-    golden::write_exr(folder / "last.exr", *last.film, {}, last.layers);
+    images::write_exr(folder / "last.exr", *last.film, {}, last.layers);
     const auto deviation = scatter_of_batches(folder / "last.exr");
     for (std::size_t c = 0; c < 3; ++c)
         EXPECT_NEAR(resumed[c].get<double>() / (deviation[c] / std::sqrt(10.0)), 1.0, 1e-4) << c;
@@ -372,9 +372,9 @@ TEST(Render, ASeedRepeatsItsNoiseAndAnotherMakesOther)
     const TemporaryFolder folder;
     const auto picture = [&](const char* seed) {
         EXPECT_EQ(run(render("cornell_glass", folder / "a.exr", {"--seed", seed})).status, 0);
-        return golden::read_exr(folder / "a.exr").mean;
+        return images::read_exr(folder / "a.exr").mean;
     };
-    const golden::Image one = picture("1");
+    const images::Image one = picture("1");
     EXPECT_EQ(one, picture("1"));
     EXPECT_NE(one, picture("2"));
     EXPECT_NE(one, picture("4294967297")); // 2^32 + 1: all 64 bits of a seed count
@@ -396,10 +396,10 @@ TEST(Render, FrameMovesTheCamera)
         const std::string out = (folder / "a.exr").string();
         const Arguments plain = Arguments{"render", file, "-o", out, "-q"} + small;
         ASSERT_EQ(run(plain).status, 0);
-        const golden::Image as_is = golden::read_exr(out).mean;
+        const images::Image as_is = images::read_exr(out).mean;
         ASSERT_EQ(run(plain + Arguments{"--frame"}).status, 0);
-        EXPECT_NE(as_is, golden::read_exr(out).mean) << file;
-        EXPECT_EQ(golden::read_exr(out).metadata.at("camera"), "framed");
+        EXPECT_NE(as_is, images::read_exr(out).mean) << file;
+        EXPECT_EQ(images::read_exr(out).metadata.at("camera"), "framed");
     }
 }
 
@@ -422,7 +422,7 @@ TEST(Render, MaxEdgesOneShowsOnlyWhatShines)
     ASSERT_EQ(
         run(render("point_over_plane", folder / "a.exr", {"--max-edges", "1", "--no-roulette"})).status,
         0);
-    EXPECT_EQ(golden::read_exr(folder / "a.exr").mean, golden::Image(24, 16));
+    EXPECT_EQ(images::read_exr(folder / "a.exr").mean, images::Image(24, 16));
 }
 
 const Arguments endless = {"--size", "64x64", "-s", "2147483648", "-t", "1"};

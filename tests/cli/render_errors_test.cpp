@@ -1,6 +1,6 @@
 // Bad input and bad luck: one line that says what is wrong, exit status 2, and no file.
 
-#include "golden/exr.h"
+#include "images/exr.h"
 #include "tests/cli/run_program.h"
 
 #include <gtest/gtest.h>
@@ -287,8 +287,8 @@ TEST_F(Resume, RefusesADamagedFileAndLeavesItAlone)
 
 TEST_F(Resume, RefusesAPictureOfAnotherMaking)
 {
-    golden::ExrPicture picture = golden::read_exr(out);
-    golden::write_exr(out, *picture.film, picture.metadata, {}, golden::FilmState::omit);
+    images::ExrPicture picture = images::read_exr(out);
+    images::write_exr(out, *picture.film, picture.metadata, {}, images::FilmState::omit);
     before = read_bytes(out);
     expect_refusal(good, "state");
 }

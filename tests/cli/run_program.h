@@ -3,7 +3,7 @@
 // Runs the program as a person or a script does: a process of its own, with what it prints and how it
 // ends.
 
-#include "tests/golden/temporary_folder.h"
+#include "tests/images/temporary_folder.h"
 
 #include <fcntl.h>
 #include <pty.h>
@@ -24,9 +24,9 @@
 
 namespace cli_test {
 
-using golden_test::read_bytes;
-using golden_test::TemporaryFolder;
-using golden_test::write_bytes;
+using images_test::read_bytes;
+using images_test::TemporaryFolder;
+using images_test::write_bytes;
 using Arguments = std::vector<std::string>;
 
 inline std::string scene_file(const std::string& name)

@@ -1,6 +1,6 @@
 // Scenes without a camera, and scenes from standard input.
 
-#include "golden/pfm.h"
+#include "images/pfm.h"
 #include "tests/cli/run_program.h"
 
 #include <gtest/gtest.h>

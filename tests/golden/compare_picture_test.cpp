@@ -2,7 +2,7 @@
 
 #include "golden/reason.h"
 #include "tests/golden/simulated_golden.h"
-#include "tests/golden/temporary_folder.h"
+#include "tests/images/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +14,10 @@ namespace {
 using calibration::Noise;
 using calibration::SimulatedRenderer;
 using golden::Comparison;
-using golden::Image;
 using golden::Verdict;
-using golden_test::error_of;
+using images_test::error_of;
 using golden_test::for_small_pictures;
+using images::Image;
 
 class ComparePicture : public golden_test::SimulatedGolden {};
 

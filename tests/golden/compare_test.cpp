@@ -1,6 +1,6 @@
 #include "golden/compare.h"
 #include "tests/golden/simulated_golden.h"
-#include "tests/golden/temporary_folder.h"
+#include "tests/images/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -20,11 +20,11 @@ using golden::CompareOptions;
 using golden::Comparison;
 using golden::Golden;
 using golden::GoldenMaker;
-using golden::Image;
 using golden::Method;
-using golden::Rgb;
 using golden::Verdict;
-using golden_test::error_of;
+using images_test::error_of;
+using images::Image;
+using images::Rgb;
 
 using golden_test::for_small_pictures;
 using golden_test::metadata;
@@ -305,7 +305,7 @@ TEST_F(Compare, PicturesThatDoNotFitAreRefused)
 
 TEST_F(Compare, CandidatesOfAnotherSceneOrOfTheGoldensSeedAreRefused)
 {
-    const auto error = [](const golden::Metadata& candidate, Method method) {
+    const auto error = [](const images::Metadata& candidate, Method method) {
         return error_of<std::invalid_argument>(
             [&] { golden::check_comparable(reference(), candidate, method); });
     };

@@ -1,6 +1,6 @@
 #include "golden/functionals.h"
-#include "tests/golden/generators.h"
-#include "tests/golden/temporary_folder.h"
+#include "tests/images/generators.h"
+#include "tests/images/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -15,13 +15,13 @@
 namespace {
 
 using golden::Functionals;
-using golden::Image;
 using golden::Pilot;
 using golden::Region;
 using golden::RegionKind;
-using golden::Rgb;
 using golden::Row;
 using golden::Weight;
+using images::Image;
+using images::Rgb;
 
 /// Half precision holds 11 bits: rounding to it moves a value by at most this, relatively.
 constexpr double half_ulp = 0x1p-11;
@@ -31,8 +31,8 @@ Pilot any_pilot(int width = 0, int height = 0)
 {
     const auto mean = rc::gen::map(rc::gen::inRange(0, 100), [](int i) { return i / 8.0; });
     const auto noise = rc::gen::map(rc::gen::inRange(0, 64), [](int i) { return i / 16.0; });
-    Pilot pilot{golden_test::any_image(mean, width, height), {}, 50};
-    pilot.noise = golden_test::any_image(noise, pilot.mean.width, pilot.mean.height);
+    Pilot pilot{images_test::any_image(mean, width, height), {}, 50};
+    pilot.noise = images_test::any_image(noise, pilot.mean.width, pilot.mean.height);
     for (std::size_t i = 0; i < pilot.mean.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c)
             if (pilot.mean.pixels[i][c] == 0.0) pilot.noise.pixels[i][c] = 0.0;
@@ -249,7 +249,7 @@ TEST(Functionals, MatchedWeightsListenWhereTheNoiseIsLow)
 TEST(Functionals, RefusePicturesThatDoNotFit)
 {
     const Functionals functionals(flat_pilot(4, 3, 1.0, 1.0));
-    using golden_test::error_of;
+    using images_test::error_of;
     EXPECT_EQ(error_of<std::invalid_argument>([&] { (void)functionals.evaluate(Image(3, 4)); }),
               "has 3x4 pixels, the golden 4x3");
     Image batch(4, 3);
@@ -264,7 +264,7 @@ TEST(Functionals, RefusePicturesThatDoNotFit)
 
 TEST(Pilot, HoldsMeanAndRelativeDeviationOfTheBatches)
 {
-    golden::Film film(1, 1);
+    images::Film film(1, 1);
     EXPECT_THROW(golden::make_pilot(film), std::invalid_argument);
     for (const double value : {1.0, 3.0, 5.0}) {
         Image batch(1, 1);

@@ -1,7 +1,7 @@
 #include "golden/golden.h"
-#include "golden/image_error.h"
-#include "tests/golden/generators.h"
-#include "tests/golden/temporary_folder.h"
+#include "images/image_error.h"
+#include "tests/images/generators.h"
+#include "tests/images/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -12,15 +12,15 @@
 
 namespace {
 
-using golden::FilmState;
 using golden::Golden;
 using golden::GoldenMaker;
-using golden::Image;
-using golden::ImageError;
-using golden::Rgb;
-using namespace golden_test;
+using images::FilmState;
+using images::Image;
+using images::ImageError;
+using images::Rgb;
+using namespace images_test;
 
-const golden::Metadata metadata = {{"batch_size", "4"}, {"scene", "test"}};
+const images::Metadata metadata = {{"batch_size", "4"}, {"scene", "test"}};
 
 /// Non-negative values that need all bits of a double, some of them 0.
 Image any_batch(int width, int height)
@@ -125,12 +125,12 @@ std::string error_with(const std::string& key, const std::string& value)
     GoldenMaker maker(4, 4, 2);
     for (int i = 0; i < 4; ++i) maker.add_batch(Image(4, 4));
     maker.write(folder / "a.exr", metadata, FilmState::omit);
-    golden::ExrPicture picture = golden::read_exr(folder / "a.exr");
+    images::ExrPicture picture = images::read_exr(folder / "a.exr");
     if (value == "removed")
         picture.metadata.erase(key);
     else
         picture.metadata[key] = value;
-    golden::write_exr(folder / "b.exr", film_of(picture.mean), picture.metadata, picture.layers);
+    images::write_exr(folder / "b.exr", film_of(picture.mean), picture.metadata, picture.layers);
     const std::string error = error_of<ImageError>([&] { golden::read_golden(folder / "b.exr"); });
     return error.empty() ? error : error.substr((folder / "b.exr").string().size());
 }
@@ -138,7 +138,7 @@ std::string error_with(const std::string& key, const std::string& value)
 TEST(Golden, WhatIsNoneIsRefusedWithTheReason)
 {
     const TemporaryFolder folder;
-    golden::write_exr(folder / "a.exr", film_of(Image(3, 3)), metadata);
+    images::write_exr(folder / "a.exr", film_of(Image(3, 3)), metadata);
     EXPECT_EQ(error_of<ImageError>([&] { golden::read_golden(folder / "a.exr"); }),
               (folder / "a.exr").string() + ": not a golden: has no pilot");
     EXPECT_EQ(error_of<ImageError>([&] { GoldenMaker::resume(folder / "a.exr"); }),

@@ -12,9 +12,9 @@ namespace {
 
 using calibration::Noise;
 using calibration::SimulatedRenderer;
-using golden::Image;
-using golden::Rgb;
 using golden::shared_noise;
+using images::Image;
+using images::Rgb;
 
 class Independence : public golden_test::SimulatedGolden {
 protected:

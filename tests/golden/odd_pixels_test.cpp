@@ -1,7 +1,7 @@
 // What is wrong with single pixels is found, named with its place, and told from right pictures' noise.
 
-#include "golden/non_finite.h"
 #include "golden/odd_pixels.h"
+#include "images/non_finite.h"
 #include "tests/golden/simulated_golden.h"
 
 #include <glm/common.hpp>
@@ -18,13 +18,13 @@ namespace {
 using calibration::Noise;
 using calibration::SimulatedRenderer;
 using golden::Comparison;
-using golden::Image;
 using golden::Oddity;
 using golden::OddPixels;
-using golden::PixelPosition;
-using golden::Rgb;
 using golden::Verdict;
 using golden_test::for_small_pictures;
+using images::Image;
+using images::PixelPosition;
+using images::Rgb;
 
 class OddPixel : public golden_test::SimulatedGolden {
 protected:
@@ -205,7 +205,7 @@ TEST_F(OddPixel, IsNeverWrongInARightPictureWhateverItsNoise)
     for (const Noise noise : calibration::noises) {
         const SimulatedRenderer renderer(golden_test::size, noise);
         for (std::uint64_t trial = 0; trial < 10; ++trial) {
-            golden::Film film(golden_test::size, golden_test::size);
+            images::Film film(golden_test::size, golden_test::size);
             for (std::uint64_t batch = 0; batch < 64; ++batch) {
                 const Image one = renderer.render(50 + trial, batch);
                 film.add_batch(one);
@@ -286,11 +286,11 @@ RC_GTEST_PROP(ChanceOfDarkness, IsAnUpperBound, ())
 TEST(NonFinite, PixelsAreCountedAndTheFirstIsNamed)
 {
     Image image(5, 4);
-    EXPECT_EQ(golden::say_non_finite(image), std::nullopt);
+    EXPECT_EQ(images::say_non_finite(image), std::nullopt);
     image.at(3, 2).g = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(golden::say_non_finite(image), "pixel (3, 2) is NaN or infinite");
+    EXPECT_EQ(images::say_non_finite(image), "pixel (3, 2) is NaN or infinite");
     image.at(1, 3).b = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(golden::say_non_finite(image), "2 pixels are NaN or infinite, the first is (3, 2)");
+    EXPECT_EQ(images::say_non_finite(image), "2 pixels are NaN or infinite, the first is (3, 2)");
 }
 
 } // namespace

@@ -11,9 +11,9 @@
 namespace {
 
 using golden::Comparison;
-using golden::Image;
-using golden::Metadata;
-using golden::Rgb;
+using images::Image;
+using images::Metadata;
+using images::Rgb;
 
 class Reason : public golden_test::SimulatedGolden {
 protected:

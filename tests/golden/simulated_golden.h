@@ -16,7 +16,7 @@
 namespace golden_test {
 
 inline constexpr int size = 32; // pixels a side
-inline const golden::Metadata metadata = {{"batch_size", "4"}, {"scene_hash", "abc"}, {"seed", "1"}};
+inline const images::Metadata metadata = {{"batch_size", "4"}, {"scene_hash", "abc"}, {"seed", "1"}};
 
 /// Levels of detectable errors as 32x32 pixels can offer.
 inline golden::CompareOptions for_small_pictures()
@@ -53,10 +53,10 @@ protected:
         return result;
     }
     /// A picture of that many batches, of 4 samples each.
-    static golden::Image picture(std::uint64_t batches, std::uint64_t seed,
+    static images::Image picture(std::uint64_t batches, std::uint64_t seed,
                                  const calibration::Bias& bias = {})
     {
-        golden::Film film(size, size);
+        images::Film film(size, size);
         for (std::uint64_t batch = 0; batch < batches; ++batch)
             film.add_batch(renderer().render(seed, batch, bias));
         return film.mean();

@@ -14,7 +14,7 @@ while IFS= read -r -d '' header; do
         echo "$source: its first include must be \"$header\""
         failed=1
     fi
-done < <(tracked 'cli/*.h' 'golden/*.h' 'ref/*.h' 'scenes/*.h' 'cuda/*.h')
+done < <(tracked 'cli/*.h' 'golden/*.h' 'images/*.h' 'ref/*.h' 'scenes/*.h' 'cuda/*.h')
 printf '%s\0' "${alone[@]}" |
     xargs -0 -r -I{} -P "$(nproc)" "$2" -std=c++20 -fsyntax-only -Wall -Wextra -I. -include {} -x c++ /dev/null || failed=1
 exit $failed

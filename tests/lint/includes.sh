@@ -7,12 +7,13 @@ cd "$1"
 tracked '*.h' '*.cpp' '*.cu' '*.cuh' | xargs -0 -r awk '
     BEGIN {
         may["scenes"] = " scenes "
-        may["golden"] = " golden "
-        may["ref"] = " ref scenes golden "
-        may["cuda"] = " cuda scenes golden "
-        may["cli"] = " cli ref cuda scenes golden "
-        may["docs"] = " docs cli ref cuda scenes golden "
-        may["tests"] = " tests cli ref cuda scenes golden "
+        may["images"] = " images "
+        may["golden"] = " golden images "
+        may["ref"] = " ref scenes images "
+        may["cuda"] = " cuda scenes images "
+        may["cli"] = " cli ref cuda golden scenes images "
+        may["docs"] = " docs cli ref cuda golden scenes images "
+        may["tests"] = " tests cli ref cuda golden scenes images "
     }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
         split(FILENAME, from, "/")

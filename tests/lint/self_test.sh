@@ -4,7 +4,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
-mkdir -p "$root"/{ref/trees,cuda/trees,scenes,golden,cli,tests}
+mkdir -p "$root"/{ref/trees,cuda/trees,scenes,images,golden,cli,tests}
 failures=0
 
 # expect pass|fail CHECK FILE CONTENT: CHECK on a tree that holds only this file
@@ -24,8 +24,11 @@ expect pass includes.sh cuda/trees/a.cuh '#include "cuda/device.h"'
 expect pass includes.sh tests/a.cpp '#include "ref/trees/ray.h"'
 expect fail includes.sh ref/trees/a.h '#include "cuda/device.h"'
 expect fail includes.sh cuda/trees/a.cu '# include "ref/trees/ray.h"'
-expect fail includes.sh scenes/a.h '#include "golden/image.h"'
+expect fail includes.sh scenes/a.h '#include "images/image.h"'
 expect fail includes.sh golden/a.h '#include "scenes/scene.h"'
+expect pass includes.sh golden/a.h '#include "images/image.h"'
+expect fail includes.sh images/a.h '#include "golden/golden.h"'
+expect fail includes.sh ref/a.h '#include "golden/golden.h"'
 expect fail includes.sh ref/trees/a.cpp '#include "cli/command.h"'
 expect fail includes.sh ref/trees/a.cpp '#include "../../cuda/device.h"'
 expect fail includes.sh ref/trees/a.cpp '#include "ray.h"'

@@ -22,16 +22,16 @@ std::string channel(const std::string& target)
 /// these <animation>s.
 Notices notices_with(const std::string& animations)
 {
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.cameras = "<camera id=\"eye\"><optics><technique_common><perspective><xfov>40</xfov>"
                    "</perspective></technique_common></optics></camera><camera id=\"spare-eye\"/>";
     text.lights = "<light id=\"bulb\"><technique_common><point><color sid=\"c\">1 1 1</color></point>"
                   "</technique_common></light><light id=\"spare-bulb\"/>";
-    tests::add_material(text, "spare", "<velvet/>");
-    text.geometries = tests::triangle_mesh("t") + tests::triangle_mesh("spare-t");
-    text.library_nodes = "<node id=\"shared\">" + tests::instance_geometry("t") +
-                         "</node><node id=\"spare-node\">" + tests::instance_geometry("spare-t") +
-                         "</node>";
+    transport_test::add_material(text, "spare", "<velvet/>");
+    text.geometries = transport_test::triangle_mesh("t") + transport_test::triangle_mesh("spare-t");
+    text.library_nodes = "<node id=\"shared\">" + transport_test::instance_geometry("t") +
+                         "</node><node id=\"spare-node\">" +
+                         transport_test::instance_geometry("spare-t") + "</node>";
     text.nodes = "<node id=\"outer\"><node id=\"inner\"><translate sid=\"location\">0 0 1</translate>"
                  "<instance_node url=\"#shared\"/><instance_light url=\"#bulb\"/></node></node>"
                  "<node id=\"with.dot\"/><node id=\"twin\"/><node id=\"twin\"><instance_camera "

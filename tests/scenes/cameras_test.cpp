@@ -13,15 +13,15 @@ namespace {
 
 using scenes::Vec3;
 
-tests::SceneText with_camera(const std::string& perspective, const std::string& transform = "")
+transport_test::SceneText with_camera(const std::string& perspective, const std::string& transform = "")
 {
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.cameras = "<camera id=\"c\"><optics><technique_common><perspective>" + perspective +
                    "</perspective></technique_common></optics></camera>";
     text.lights = "<light id=\"l\"><technique_common><ambient><color>1 1 "
                   "1</color></ambient></technique_common></light>";
-    text.nodes = tests::node("<instance_light url=\"#l\"/>") +
-                 tests::node(transform + "<instance_camera url=\"#c\"/>");
+    text.nodes = transport_test::node("<instance_light url=\"#l\"/>") +
+                 transport_test::node(transform + "<instance_camera url=\"#c\"/>");
     return text;
 }
 
@@ -61,9 +61,9 @@ TEST(Cameras, OfBothAnglesTheHorizontalOneCountsWithANotice)
 
 TEST(Cameras, TheFirstOfSeveralCountsWithOneNotice)
 {
-    tests::SceneText text = with_camera("<xfov>90</xfov>");
+    transport_test::SceneText text = with_camera("<xfov>90</xfov>");
     for (int i = 0; i < 2; ++i)
-        text.nodes += tests::node("<translate>9 9 9</translate><instance_camera url=\"#c\"/>");
+        text.nodes += transport_test::node("<translate>9 9 9</translate><instance_camera url=\"#c\"/>");
     const scenes::Scene scene = text.parse();
     EXPECT_EQ(scene.camera.value().eye, Vec3(0.0));
     EXPECT_EQ(scene.notices,
@@ -73,7 +73,7 @@ TEST(Cameras, TheFirstOfSeveralCountsWithOneNotice)
 
 TEST(Cameras, ASceneNeedsNone)
 {
-    EXPECT_FALSE(tests::SceneText().parse().camera.has_value());
+    EXPECT_FALSE(transport_test::SceneText().parse().camera.has_value());
 }
 
 TEST(Cameras, AMirroredNodeMirrorsThePicture)
@@ -103,7 +103,7 @@ RC_GTEST_PROP(Cameras, TheAxesAreOrthonormalToRoundingWhateverTheDigitsOfTheFile
     std::string matrix = "<matrix>";
     for (int row = 0; row < 3; ++row) {
         for (const Vec3& column : columns)
-            matrix += tests::exactly(scale * (column[row] + 1e-6 * *real)) + " ";
+            matrix += transport_test::exactly(scale * (column[row] + 1e-6 * *real)) + " ";
         matrix += "0 ";
     }
     const scenes::Camera camera =

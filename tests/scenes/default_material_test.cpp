@@ -17,7 +17,7 @@ const std::string stands_in = "the default, Lambertian with albedo 0.5, is used"
 
 std::string mesh_of(const std::string& parts)
 {
-    return tests::mesh("g", "0 0 0 1 0 0 0 1 0", 3, parts);
+    return transport_test::mesh("g", "0 0 0 1 0 0 0 1 0", 3, parts);
 }
 
 std::string part(const std::string& symbol, const std::string& corners = "0 1 2")
@@ -28,7 +28,7 @@ std::string part(const std::string& symbol, const std::string& corners = "0 1 2"
 }
 
 /// What is read, with a lamp beside it so that there is no notice of a scene without an emitter.
-scenes::Scene lit(tests::SceneText text)
+scenes::Scene lit(transport_test::SceneText text)
 {
     text.lights = "<light id=\"l\"><technique_common><point><color>1 1 1</color></point>"
                   "</technique_common></light>";
@@ -46,9 +46,9 @@ void expect_default(const scenes::Scene& scene, std::uint32_t material)
 
 TEST(DefaultMaterial, IsThatOfPartsThatNameNone)
 {
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.geometries = mesh_of(part("") + part("material=\"m\"") + part("name=\"last\""));
-    text.nodes = tests::node(tests::instance_geometry("g"));
+    text.nodes = transport_test::node(transport_test::instance_geometry("g"));
     const scenes::Scene scene = lit(text);
     ASSERT_EQ(scene.triangles.size(), 3);
     expect_default(scene, scene.triangles[0].material);
@@ -61,10 +61,10 @@ TEST(DefaultMaterial, IsThatOfPartsThatNameNone)
 
 TEST(DefaultMaterial, IsThatOfSymbolsThatAnInstanceDoesNotBind)
 {
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.geometries = mesh_of(part("material=\"m\""));
-    text.nodes =
-        tests::node(tests::instance_geometry("g")) + "\n<node><instance_geometry url=\"#g\"/></node>";
+    text.nodes = transport_test::node(transport_test::instance_geometry("g")) +
+                 "\n<node><instance_geometry url=\"#g\"/></node>";
     const scenes::Scene scene = lit(text);
     ASSERT_EQ(scene.triangles.size(), 2);
     EXPECT_EQ(scene.material_names.at(scene.triangles[0].material), "grey");
@@ -77,9 +77,9 @@ TEST(DefaultMaterial, IsThatOfSymbolsThatAnInstanceDoesNotBind)
 
 TEST(DefaultMaterial, IsThatOfSpheresWithoutABoundMaterial)
 {
-    tests::SceneText text;
-    text.geometries = tests::sphere_geometry("s", "1");
-    text.nodes = "<node><instance_geometry url=\"#s\"/>" + tests::instance_geometry("s") +
+    transport_test::SceneText text;
+    text.geometries = transport_test::sphere_geometry("s", "1");
+    text.nodes = "<node><instance_geometry url=\"#s\"/>" + transport_test::instance_geometry("s") +
                  "<instance_geometry url=\"#s\"><bind_material><technique_common/></bind_material>"
                  "</instance_geometry></node>";
     const scenes::Scene scene = lit(text);
@@ -95,9 +95,10 @@ TEST(DefaultMaterial, IsThatOfSpheresWithoutABoundMaterial)
 
 TEST(DefaultMaterial, IsNoticedOncePerPartHoweverManyTheInstances)
 {
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.geometries = mesh_of(part("") + part("material=\"m\"") + part("material=\"x\""));
-    for (int i = 0; i < 5; ++i) text.nodes += tests::node(tests::instance_geometry("g"));
+    for (int i = 0; i < 5; ++i)
+        text.nodes += transport_test::node(transport_test::instance_geometry("g"));
     const scenes::Scene scene = lit(text);
     EXPECT_EQ(scene.triangles.size(), 15);
     EXPECT_EQ(scene.materials.size(), 2);
@@ -106,9 +107,9 @@ TEST(DefaultMaterial, IsNoticedOncePerPartHoweverManyTheInstances)
 
 TEST(DefaultMaterial, IsNotNeededByPartsWithoutTriangles)
 {
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.geometries = mesh_of(part("", "") + part("material=\"m\""));
-    text.nodes = tests::node(tests::instance_geometry("g"));
+    text.nodes = transport_test::node(transport_test::instance_geometry("g"));
     const scenes::Scene scene = lit(text);
     EXPECT_EQ(scene.materials.size(), 1);
     EXPECT_TRUE(scene.notices.empty());
@@ -116,10 +117,10 @@ TEST(DefaultMaterial, IsNotNeededByPartsWithoutTriangles)
 
 TEST(DefaultMaterial, StandsBesideAMaterialOfThatNameInTheFile)
 {
-    tests::SceneText text;
-    tests::add_material(text, "default", "<mirror><reflectance>1 1 1</reflectance></mirror>");
+    transport_test::SceneText text;
+    transport_test::add_material(text, "default", "<mirror><reflectance>1 1 1</reflectance></mirror>");
     text.geometries = mesh_of(part("") + part("material=\"m\""));
-    text.nodes = tests::node(tests::instance_geometry("g", "default"));
+    text.nodes = transport_test::node(transport_test::instance_geometry("g", "default"));
     const scenes::Scene scene = lit(text);
     expect_default(scene, scene.triangles.at(0).material);
     EXPECT_TRUE(

@@ -68,7 +68,7 @@ std::string source_text(const std::vector<Vec3>& positions)
     std::string text =
         "<source id=\"p\"><float_array id=\"a\" count=\"" + std::to_string(values.size()) + "\">";
     for (const double value : values)
-        text += tests::exactly(value) + (*rc::gen::element(" ", "\n", "  "));
+        text += transport_test::exactly(value) + (*rc::gen::element(" ", "\n", "  "));
     text += "</float_array><technique_common><accessor source=\"#a\" count=\"" +
             std::to_string(positions.size()) + "\" offset=\"" + std::to_string(offset) + "\" stride=\"" +
             std::to_string(stride) + "\">";
@@ -141,12 +141,12 @@ RC_GTEST_PROP(Geometries, WhateverTheLayoutTheTrianglesAreThoseOfThePolygons, ()
 {
     const std::string kind = *rc::gen::element<std::string>("triangles", "polylist", "polygons");
     const RandomMesh mesh = random_mesh(kind == "triangles");
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.geometries = "<geometry id=\"g\"><mesh>" + source_text(mesh.positions) +
                       "<vertices id=\"v\"><input semantic=\"NORMAL\" source=\"#none\"/>"
                       "<input semantic=\"POSITION\" source=\"#p\"/></vertices>" +
                       primitives_text(kind, mesh) + "</mesh></geometry>";
-    text.nodes = tests::node(tests::instance_geometry("g"));
+    text.nodes = transport_test::node(transport_test::instance_geometry("g"));
     const scenes::Scene scene = text.parse();
 
     scenes::polygons::Polygons polygons;
@@ -166,15 +166,16 @@ RC_GTEST_PROP(Geometries, WhateverTheLayoutTheTrianglesAreThoseOfThePolygons, ()
 std::vector<std::string> notices_of(const std::string& positions, std::size_t points,
                                     const std::vector<std::string>& polygons)
 {
-    tests::SceneText text;
+    transport_test::SceneText text;
     std::string primitives = "<polygons material=\"m\" count=\"" + std::to_string(polygons.size()) +
                              "\"><input semantic=\"VERTEX\" source=\"#g-v\" offset=\"0\"/>";
     for (const std::string& p : polygons) primitives += "<p>" + p + "</p>";
-    text.geometries = tests::mesh("g", positions, points, primitives + "</polygons>");
+    text.geometries = transport_test::mesh("g", positions, points, primitives + "</polygons>");
     text.lights = "<light id=\"l\"><technique_common><ambient><color>1 1 "
                   "1</color></ambient></technique_common></light>";
-    text.nodes = tests::node(tests::instance_geometry("g") + tests::instance_geometry("g") +
-                             "<instance_light url=\"#l\"/>");
+    text.nodes =
+        transport_test::node(transport_test::instance_geometry("g") +
+                             transport_test::instance_geometry("g") + "<instance_light url=\"#l\"/>");
     return text.parse().notices;
 }
 
@@ -236,12 +237,13 @@ const std::string with_hole_positions = "0 0 0 9 0 0 9 9 0 0 9 0 2 2 0 4 2 0 2 4
 
 scenes::Scene with_hole(const std::string& ph)
 {
-    tests::SceneText text;
-    text.geometries = tests::mesh("g", with_hole_positions, 7,
-                                  "<polygons material=\"m\" count=\"3\"><input semantic=\"VERTEX\" "
-                                  "source=\"#g-v\" offset=\"0\"/><p>0 1 4</p>" +
-                                      ph + "<p>3 2 1</p></polygons>");
-    text.nodes = tests::node(tests::instance_geometry("g"));
+    transport_test::SceneText text;
+    text.geometries =
+        transport_test::mesh("g", with_hole_positions, 7,
+                             "<polygons material=\"m\" count=\"3\"><input semantic=\"VERTEX\" "
+                             "source=\"#g-v\" offset=\"0\"/><p>0 1 4</p>" +
+                                 ph + "<p>3 2 1</p></polygons>");
+    text.nodes = transport_test::node(transport_test::instance_geometry("g"));
     return text.parse();
 }
 
@@ -274,11 +276,11 @@ TEST(Geometries, APhWithoutItsOutlineIsAnError)
 
 TEST(Geometries, LinesAreIgnoredWithANotice)
 {
-    tests::SceneText text;
-    text.geometries = tests::mesh("g", "0 0 0 1 0 0", 2,
-                                  "<lines count=\"1\"><input semantic=\"VERTEX\" "
-                                  "source=\"#g-v\" offset=\"0\"/><p>0 1</p></lines>");
-    text.nodes = tests::node("<instance_geometry url=\"#g\"/>");
+    transport_test::SceneText text;
+    text.geometries = transport_test::mesh("g", "0 0 0 1 0 0", 2,
+                                           "<lines count=\"1\"><input semantic=\"VERTEX\" "
+                                           "source=\"#g-v\" offset=\"0\"/><p>0 1</p></lines>");
+    text.nodes = transport_test::node("<instance_geometry url=\"#g\"/>");
     const scenes::Scene scene = text.parse();
     EXPECT_TRUE(scene.triangles.empty());
     ASSERT_EQ(scene.notices.size(), 2); // no emitter, either
@@ -287,13 +289,13 @@ TEST(Geometries, LinesAreIgnoredWithANotice)
 
 TEST(Geometries, ASphereOfTheCmu462ProfileTakesThePlaceOfAMesh)
 {
-    tests::SceneText text;
-    std::string both = tests::triangle_mesh("g");
+    transport_test::SceneText text;
+    std::string both = transport_test::triangle_mesh("g");
     both.insert(both.rfind("</geometry>"),
                 "<extra><technique profile=\"CMU462\"><sphere><radius>.3</radius></sphere>"
                 "</technique></extra>");
     text.geometries = both;
-    text.nodes = tests::node(tests::instance_geometry("g"));
+    text.nodes = transport_test::node(transport_test::instance_geometry("g"));
     const scenes::Scene scene = text.parse();
     EXPECT_TRUE(scene.triangles.empty());
     ASSERT_EQ(scene.spheres.size(), 1);

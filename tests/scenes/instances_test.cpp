@@ -24,8 +24,9 @@ std::string matrix_text(const glm::dmat3& linear, const Vec3& offset)
 {
     std::string text = "<matrix>";
     for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) text += tests::exactly(linear[column][row]) + " ";
-        text += tests::exactly(offset[row]) + " ";
+        for (int column = 0; column < 3; ++column)
+            text += transport_test::exactly(linear[column][row]) + " ";
+        text += transport_test::exactly(offset[row]) + " ";
     }
     return text + "0 0 0 1</matrix>";
 }
@@ -42,10 +43,10 @@ glm::dmat3 random_invertible()
                               [](const glm::dmat3& m) { return glm::determinant(m) != 0; });
 }
 
-tests::SceneText with_lamp()
+transport_test::SceneText with_lamp()
 {
-    tests::SceneText text;
-    tests::add_material(text, "lamp", "<emission><radiance>1 2 3</radiance></emission>");
+    transport_test::SceneText text;
+    transport_test::add_material(text, "lamp", "<emission><radiance>1 2 3</radiance></emission>");
     return text;
 }
 
@@ -53,9 +54,10 @@ tests::SceneText with_lamp()
 RC_GTEST_PROP(MirroredNodes, TheFrontOfATriangleIsTheImageOfItsFront, ())
 {
     const glm::dmat3 linear = random_invertible();
-    tests::SceneText text = with_lamp();
-    text.geometries = tests::triangle_mesh("t");
-    text.nodes = tests::node(matrix_text(linear, Vec3(1, 2, 3)) + tests::instance_geometry("t", "lamp"));
+    transport_test::SceneText text = with_lamp();
+    text.geometries = transport_test::triangle_mesh("t");
+    text.nodes = transport_test::node(matrix_text(linear, Vec3(1, 2, 3)) +
+                                      transport_test::instance_geometry("t", "lamp"));
     const scenes::Scene scene = text.parse();
     const scenes::Triangle& triangle = scene.triangles.at(0);
     const Vec3 before_front =
@@ -71,11 +73,12 @@ RC_GTEST_PROP(MirroredNodes, TheFrontOfATriangleIsTheImageOfItsFront, ())
 RC_GTEST_PROP(AreaLights, TheSquareEmitsToTheImageOfItsNegativeZ, ())
 {
     const glm::dmat3 linear = random_invertible();
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.lights = "<light id=\"a\"><extra><technique profile=\"CMU462\"><area><color>4 5 "
                   "6</color></area></technique>"
                   "</extra></light>";
-    text.nodes = tests::node(matrix_text(linear, Vec3(1, 2, 3)) + "<instance_light url=\"#a\"/>");
+    text.nodes =
+        transport_test::node(matrix_text(linear, Vec3(1, 2, 3)) + "<instance_light url=\"#a\"/>");
     const scenes::Scene scene = text.parse();
     RC_ASSERT(scene.triangles.size() == 2U);
     for (const scenes::Triangle& triangle : scene.triangles) {
@@ -95,12 +98,12 @@ RC_GTEST_PROP(AreaLights, TheSquareEmitsToTheImageOfItsNegativeZ, ())
 
 TEST(AreaLights, ManyOfOneElementShareAMaterialNamedAfterIt)
 {
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.lights = "<light id=\"a\"><extra><technique profile=\"CMU462\"><area><color>4 5 "
                   "6</color></area></technique>"
                   "</extra></light>";
-    text.nodes =
-        tests::node("<instance_light url=\"#a\"/>") + tests::node("<instance_light url=\"#a\"/>");
+    text.nodes = transport_test::node("<instance_light url=\"#a\"/>") +
+                 transport_test::node("<instance_light url=\"#a\"/>");
     const scenes::Scene scene = text.parse();
     EXPECT_EQ(scene.triangles.size(), 4);
     EXPECT_EQ(scene.materials.size(), 1);
@@ -108,22 +111,23 @@ TEST(AreaLights, ManyOfOneElementShareAMaterialNamedAfterIt)
     EXPECT_TRUE(scene.notices.empty());
 }
 
-tests::SceneText lamp_and_area_lights(const std::string& lamp, const std::string& geometry)
+transport_test::SceneText lamp_and_area_lights(const std::string& lamp, const std::string& geometry)
 {
-    tests::SceneText text;
-    tests::add_material(text, "lamp", lamp);
+    transport_test::SceneText text;
+    transport_test::add_material(text, "lamp", lamp);
     text.geometries = geometry;
     text.lights = "<light id=\"a\"><extra><technique profile=\"CMU462\"><area><color>4 5 "
                   "6</color></area></technique>"
                   "</extra></light>";
-    text.nodes = tests::node("<instance_light url=\"#a\"/><instance_light url=\"#a\"/>" +
-                             tests::instance_geometry("g", "lamp"));
+    text.nodes = transport_test::node("<instance_light url=\"#a\"/><instance_light url=\"#a\"/>" +
+                                      transport_test::instance_geometry("g", "lamp"));
     return text;
 }
 
 TEST(AreaLights, AreSkippedWithOneNoticeWhereGeometryEmits)
 {
-    for (const std::string& geometry : {tests::triangle_mesh("g"), tests::sphere_geometry("g", "1")}) {
+    for (const std::string& geometry :
+         {transport_test::triangle_mesh("g"), transport_test::sphere_geometry("g", "1")}) {
         const scenes::Scene scene =
             lamp_and_area_lights("<emission><radiance>0 0 1</radiance></emission>", geometry).parse();
         EXPECT_EQ(scene.triangles.size() + scene.spheres.size(), 1);
@@ -137,11 +141,11 @@ TEST(AreaLights, AreSkippedWithOneNoticeWhereGeometryEmits)
 TEST(AreaLights, AreKeptWhereGeometryOnlySeemsToEmit)
 {
     const std::string line =
-        tests::mesh("g", "0 0 0 1 0 0 2 0 0", 3,
-                    "<triangles material=\"m\" count=\"1\"><input semantic=\"VERTEX\" "
-                    "source=\"#g-v\" offset=\"0\"/><p>0 1 2</p></triangles>");
+        transport_test::mesh("g", "0 0 0 1 0 0 2 0 0", 3,
+                             "<triangles material=\"m\" count=\"1\"><input semantic=\"VERTEX\" "
+                             "source=\"#g-v\" offset=\"0\"/><p>0 1 2</p></triangles>");
     EXPECT_EQ(lamp_and_area_lights("<emission><radiance>0 0 0</radiance></emission>",
-                                   tests::triangle_mesh("g"))
+                                   transport_test::triangle_mesh("g"))
                   .parse()
                   .triangles.size(),
               5);
@@ -153,11 +157,11 @@ TEST(AreaLights, AreKeptWhereGeometryOnlySeemsToEmit)
 
 TEST(Spheres, TakeSimilarityTransforms)
 {
-    tests::SceneText text;
-    text.geometries = tests::sphere_geometry("s", "0.5");
+    transport_test::SceneText text;
+    text.geometries = transport_test::sphere_geometry("s", "0.5");
     // A turn by 3-4-5, a mirroring and a scale of 4, in seven digits as from a file.
-    text.nodes = tests::node("<matrix>2.4 3.2 0 1 3.2 -2.400001 0 2 0 0 4 3 0 0 0 1</matrix>" +
-                             tests::instance_geometry("s"));
+    text.nodes = transport_test::node("<matrix>2.4 3.2 0 1 3.2 -2.400001 0 2 0 0 4 3 0 0 0 1</matrix>" +
+                                      transport_test::instance_geometry("s"));
     const scenes::Scene scene = text.parse();
     ASSERT_EQ(scene.spheres.size(), 1);
     EXPECT_EQ(scene.spheres[0].center, Vec3(1, 2, 3));
@@ -170,22 +174,25 @@ TEST(Spheres, AnEllipsoidIsAnErrorThatSaysSo)
          {"<scale>1 1 2</scale>", "<scale>1 1 1.0001</scale>",
           "<matrix>1 0.001 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>",
           "<rotate>0 0 1 45</rotate><scale>1 2 1</scale><rotate>0 0 1 -45</rotate>"}) {
-        tests::SceneText text;
-        text.geometries = tests::sphere_geometry("s", "0.5");
-        text.nodes = tests::node(transform + tests::instance_geometry("s"));
-        EXPECT_EQ(
-            tests::error_of(text).find("test.dae:1: <instance_geometry url=\"#s\">: an ellipsoid:"), 0)
+        transport_test::SceneText text;
+        text.geometries = transport_test::sphere_geometry("s", "0.5");
+        text.nodes = transport_test::node(transform + transport_test::instance_geometry("s"));
+        EXPECT_EQ(transport_test::error_of(text).find(
+                      "test.dae:1: <instance_geometry url=\"#s\">: an ellipsoid:"),
+                  0)
             << transform;
     }
 }
 
 TEST(Instances, OneGeometryCanStandInManyPlacesWithManyMaterials)
 {
-    tests::SceneText text = with_lamp();
-    text.geometries = tests::triangle_mesh("t") + tests::sphere_geometry("s", "1");
-    text.nodes = tests::node(tests::instance_geometry("t") + tests::instance_geometry("s", "lamp")) +
-                 tests::node("<translate>5 0 0</translate>" + tests::instance_geometry("t", "lamp") +
-                             tests::instance_geometry("s"));
+    transport_test::SceneText text = with_lamp();
+    text.geometries = transport_test::triangle_mesh("t") + transport_test::sphere_geometry("s", "1");
+    text.nodes = transport_test::node(transport_test::instance_geometry("t") +
+                                      transport_test::instance_geometry("s", "lamp")) +
+                 transport_test::node("<translate>5 0 0</translate>" +
+                                      transport_test::instance_geometry("t", "lamp") +
+                                      transport_test::instance_geometry("s"));
     const scenes::Scene scene = text.parse();
     EXPECT_EQ(scene.material_names, (std::vector<std::string>{"grey", "lamp"}));
     ASSERT_EQ(scene.triangles.size(), 2);
@@ -200,20 +207,20 @@ TEST(Instances, OneGeometryCanStandInManyPlacesWithManyMaterials)
 
 TEST(Instances, PartsOfAMeshTakeTheMaterialsOfTheirSymbols)
 {
-    tests::SceneText text = with_lamp();
+    transport_test::SceneText text = with_lamp();
     const std::string input = "<input semantic=\"VERTEX\" source=\"#g-v\" offset=\"0\"/>";
-    text.geometries = tests::mesh("g", "0 0 0 1 0 0 0 1 0", 3,
-                                  "<triangles material=\"one\" count=\"1\">" + input +
-                                      "<p>0 1 2</p></triangles>"
-                                      "<polylist material=\"two\" count=\"1\">" +
-                                      input +
-                                      "<vcount>3</vcount><p>2 1 0</p></polylist>"
-                                      "<triangles material=\"unbound\" count=\"0\">" +
-                                      input + "</triangles>");
-    text.nodes = tests::node("<instance_geometry url=\"#g\"><bind_material><technique_common>"
-                             "<instance_material symbol=\"two\" target=\"#grey\"/>"
-                             "<instance_material symbol=\"one\" target=\"#lamp\"/>"
-                             "</technique_common></bind_material></instance_geometry>");
+    text.geometries = transport_test::mesh("g", "0 0 0 1 0 0 0 1 0", 3,
+                                           "<triangles material=\"one\" count=\"1\">" + input +
+                                               "<p>0 1 2</p></triangles>"
+                                               "<polylist material=\"two\" count=\"1\">" +
+                                               input +
+                                               "<vcount>3</vcount><p>2 1 0</p></polylist>"
+                                               "<triangles material=\"unbound\" count=\"0\">" +
+                                               input + "</triangles>");
+    text.nodes = transport_test::node("<instance_geometry url=\"#g\"><bind_material><technique_common>"
+                                      "<instance_material symbol=\"two\" target=\"#grey\"/>"
+                                      "<instance_material symbol=\"one\" target=\"#lamp\"/>"
+                                      "</technique_common></bind_material></instance_geometry>");
     const scenes::Scene scene = text.parse();
     ASSERT_EQ(scene.triangles.size(), 2);
     EXPECT_EQ(scene.material_names[scene.triangles[0].material], "lamp");
@@ -222,14 +229,14 @@ TEST(Instances, PartsOfAMeshTakeTheMaterialsOfTheirSymbols)
 
 TEST(Instances, NodesOfTheLibraryCanBeInstancedBelowOneAnother)
 {
-    tests::SceneText text;
-    text.geometries = tests::triangle_mesh("t");
+    transport_test::SceneText text;
+    text.geometries = transport_test::triangle_mesh("t");
     text.library_nodes =
-        "<node id=\"leaf\"><translate>0 0 1</translate>" + tests::instance_geometry("t") +
+        "<node id=\"leaf\"><translate>0 0 1</translate>" + transport_test::instance_geometry("t") +
         "</node>"
         "<node id=\"pair\"><instance_node url=\"#leaf\"/><node><translate>0 10 0</translate>"
         "<instance_node url=\"#leaf\"/></node></node>";
-    text.nodes = tests::node("<scale>2 2 2</scale><instance_node url=\"#pair\"/>") +
+    text.nodes = transport_test::node("<scale>2 2 2</scale><instance_node url=\"#pair\"/>") +
                  "<node><instance_node url=\"#pair\"/></node>";
     const scenes::Scene scene = text.parse();
     ASSERT_EQ(scene.triangles.size(), 4);
@@ -242,27 +249,28 @@ TEST(Instances, NodesOfTheLibraryCanBeInstancedBelowOneAnother)
 TEST(Instances, NodesThatMultiplyThemselvesAreStopped)
 {
     // 60 nodes, each with two instances of the next: 2^60 triangles, or as many visits of nothing.
-    for (const std::string& leaf : {tests::instance_geometry("t"), std::string()}) {
-        tests::SceneText text;
-        text.geometries = tests::triangle_mesh("t");
+    for (const std::string& leaf : {transport_test::instance_geometry("t"), std::string()}) {
+        transport_test::SceneText text;
+        text.geometries = transport_test::triangle_mesh("t");
         for (int i = 0; i < 60; ++i) {
             const std::string next = "<instance_node url=\"#n" + std::to_string(i + 1) + "\"/>";
             text.library_nodes += "<node id=\"n" + std::to_string(i) + "\">" + next + next + "</node>";
         }
         text.library_nodes += "<node id=\"n60\">" + leaf + "</node>";
-        text.nodes = tests::node("<instance_node url=\"#n0\"/>");
-        EXPECT_NE(tests::error_of(text).find(": more than "), std::string::npos);
+        text.nodes = transport_test::node("<instance_node url=\"#n0\"/>");
+        EXPECT_NE(transport_test::error_of(text).find(": more than "), std::string::npos);
     }
 }
 
 TEST(Instances, ChainsOfNodesAreStoppedBeforeTheStackIs)
 {
-    tests::SceneText text;
+    transport_test::SceneText text;
     for (int i = 0; i < 100000; ++i)
         text.library_nodes += "<node id=\"n" + std::to_string(i) + "\"><instance_node url=\"#n" +
                               std::to_string(i + 1) + "\"/></node>";
-    text.nodes = tests::node("<instance_node url=\"#n0\"/>");
-    EXPECT_EQ(tests::error_of(text), "test.dae:1: <node id=\"n199\">: nested deeper than 200 nodes");
+    text.nodes = transport_test::node("<instance_node url=\"#n0\"/>");
+    EXPECT_EQ(transport_test::error_of(text),
+              "test.dae:1: <node id=\"n199\">: nested deeper than 200 nodes");
 }
 
 } // namespace

@@ -13,9 +13,9 @@ using scenes::Vec3;
 
 scenes::Scene with_light(const std::string& light, const std::string& transform = "")
 {
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.lights = "<light id=\"l\">" + light + "</light>";
-    text.nodes = tests::node(transform + "<instance_light url=\"#l\"/>");
+    text.nodes = transport_test::node(transform + "<instance_light url=\"#l\"/>");
     return text.parse();
 }
 
@@ -84,10 +84,10 @@ TEST(Lights, ASpotCanShineAllAround)
 TEST(Lights, AmbientLightsAddUpToTheEnvironment)
 {
     EXPECT_FALSE(with_light(common("<point><color>1 1 1</color></point>")).environment.has_value());
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.lights = "<light id=\"l\">" + common("<ambient><color>1 2 3</color></ambient>") + "</light>";
-    text.nodes = tests::node("<scale>7 7 0</scale><instance_light url=\"#l\"/>") +
-                 tests::node("<instance_light url=\"#l\"/>");
+    text.nodes = transport_test::node("<scale>7 7 0</scale><instance_light url=\"#l\"/>") +
+                 transport_test::node("<instance_light url=\"#l\"/>");
     EXPECT_EQ(text.parse().environment.value(), Rgb(2, 4, 6));
 }
 
@@ -115,7 +115,7 @@ TEST(Lights, OtherProfilesAndAnEmptyOneAreIgnored)
 TEST(Lights, ASceneWithoutAnyIsNoticed)
 {
     const std::string notice = "test.dae:1: <COLLADA>: no emitter: the picture will be black";
-    EXPECT_EQ(tests::SceneText().parse().notices, std::vector<std::string>{notice});
+    EXPECT_EQ(transport_test::SceneText().parse().notices, std::vector<std::string>{notice});
     for (const char* kind : {"point", "directional", "spot", "ambient"}) {
         const std::string name = kind;
         EXPECT_EQ(with_light(common("<" + name + "><color>0 0 0</color></" + name + ">")).notices,

@@ -10,13 +10,13 @@ namespace {
 using scenes::Rgb;
 
 /// What an <effect> with this content means, read off a sphere that wears it.
-tests::SceneText with_effect(const std::string& content)
+transport_test::SceneText with_effect(const std::string& content)
 {
-    tests::SceneText text;
+    transport_test::SceneText text;
     text.effects = "<effect id=\"e\">" + content + "</effect>";
     text.materials = "<material id=\"x\" name=\"other\"><instance_effect url=\"#e\"/></material>";
-    text.geometries = tests::sphere_geometry("s", "1");
-    text.nodes = tests::node(tests::instance_geometry("s", "x"));
+    text.geometries = transport_test::sphere_geometry("s", "1");
+    text.nodes = transport_test::node(transport_test::instance_geometry("s", "x"));
     return text;
 }
 
@@ -101,7 +101,7 @@ TEST(Materials, EmissionOfTheCommonProfileCountsWhereNothingIsReflected)
          {"<constant>" + emission + "</constant>", "<lambert>" + emission + "</lambert>",
           "<phong>" + emission + "<diffuse><color>0 0 0 1</color></diffuse></phong>"})
         EXPECT_EQ(std::get<scenes::Emission>(material_from(common(shader))).radiance, Rgb(1, 2, 3));
-    EXPECT_EQ(tests::error_of(with_effect(common("<phong>" + emission + white + "</phong>"))),
+    EXPECT_EQ(transport_test::error_of(with_effect(common("<phong>" + emission + white + "</phong>"))),
               "test.dae:1: <color>: a surface that emits and reflects is not supported");
 }
 
@@ -114,21 +114,23 @@ TEST(Materials, OpaqueTransparencyIsFineAndAnyOtherIsNot)
                              "1</color></transparent><transparency><float>1</float></transparency>",
                              "<transparent><color>1 1 1 1</color></transparent>",
                              "<transparency><float>0</float></transparency>"})
-        EXPECT_EQ(tests::error_of(with_effect(transparent(text))), "") << text;
+        EXPECT_EQ(transport_test::error_of(with_effect(transparent(text))), "") << text;
     for (const char* text : {"<transparent><color>1 1 1 0.5</color></transparent>",
                              "<transparent opaque=\"RGB_ZERO\"><color>0 0 0 1</color></transparent>",
                              "<transparent><color>1 1 1 "
                              "1</color></transparent><transparency><float>0.5</float></transparency>"})
-        EXPECT_NE(tests::error_of(with_effect(transparent(text))).find("transparency is not supported"),
+        EXPECT_NE(transport_test::error_of(with_effect(transparent(text)))
+                      .find("transparency is not supported"),
                   std::string::npos)
             << text;
 }
 
 TEST(Materials, ThoseOfOneEffectKeepTheirOwnNames)
 {
-    tests::SceneText text = with_effect(common("<phong>" + white + "</phong>"));
+    transport_test::SceneText text = with_effect(common("<phong>" + white + "</phong>"));
     text.materials += "<material id=\"y\"><instance_effect url=\"#e\"/></material>";
-    text.nodes += tests::node(tests::instance_geometry("s", "y") + tests::instance_geometry("s", "x"));
+    text.nodes += transport_test::node(transport_test::instance_geometry("s", "y") +
+                                       transport_test::instance_geometry("s", "x"));
     const scenes::Scene scene = text.parse();
     EXPECT_EQ(scene.material_names, (std::vector<std::string>{"x", "y"}));
     EXPECT_EQ(scene.spheres[2].material, 0);
@@ -136,8 +138,8 @@ TEST(Materials, ThoseOfOneEffectKeepTheirOwnNames)
 
 TEST(Materials, OnesThatNothingWearsAreNotLookedAt)
 {
-    tests::SceneText text = with_effect(common("<phong>" + white + "</phong>"));
-    tests::add_material(text, "odd", "<velvet/>");
+    transport_test::SceneText text = with_effect(common("<phong>" + white + "</phong>"));
+    transport_test::add_material(text, "odd", "<velvet/>");
     EXPECT_EQ(text.parse().materials.size(), 1);
 }
 

@@ -44,7 +44,8 @@ RC_GTEST_PROP(Numbers, EveryFiniteDoubleReadsBackExactly, ())
                           [](double value) { return std::isfinite(value); }));
     const char* const gaps[] = {" ", "\n", "\t ", "\r\n", "<!-- 7 --> "};
     std::string text;
-    for (const double value : values) text += tests::exactly(value) + gaps[*rc::gen::inRange(0, 5)];
+    for (const double value : values)
+        text += transport_test::exactly(value) + gaps[*rc::gen::inRange(0, 5)];
     const Document document("<v>" + text + "</v>", "n.xml");
     RC_ASSERT(scenes::collada::numbers(document.root()) == values);
 }

@@ -12,7 +12,7 @@ namespace {
 
 TEST(ReadScene, TheNameIsThatOfTheFileWithoutFolderAndEnding)
 {
-    const std::string xml = tests::SceneText().str();
+    const std::string xml = transport_test::SceneText().str();
     EXPECT_EQ(scenes::parse_scene(xml, "a/b/corn.ell.dae").name, "corn.ell");
     EXPECT_EQ(scenes::parse_scene(xml, "plain").name, "plain");
 }
@@ -21,7 +21,7 @@ TEST(ReadScene, TheHashIsThatOfTheBytes)
 {
     // XXH3 with 64 bits and seed 0 of "<COLLADA .../>" is not to be had by hand: what it must do is tell
     // files apart, agree with itself, and have 16 digits.
-    const std::string xml = tests::SceneText().str();
+    const std::string xml = transport_test::SceneText().str();
     const std::string hash = scenes::parse_scene(xml, "a.dae").hash;
     EXPECT_EQ(hash, scenes::parse_scene(xml, "b.dae").hash);
     EXPECT_NE(hash, scenes::parse_scene(xml + "\n", "a.dae").hash);
@@ -31,9 +31,9 @@ TEST(ReadScene, TheHashIsThatOfTheBytes)
 
 TEST(ReadScene, AFileReadsAsItsBytesParse)
 {
-    tests::SceneText text;
-    text.geometries = tests::triangle_mesh("t");
-    text.nodes = tests::node(tests::instance_geometry("t"));
+    transport_test::SceneText text;
+    text.geometries = transport_test::triangle_mesh("t");
+    text.nodes = transport_test::node(transport_test::instance_geometry("t"));
     const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "plumbline-read.dae";
     std::ofstream(path, std::ios::binary) << text.str();
     const scenes::Scene read = scenes::read_scene(path);
@@ -62,7 +62,7 @@ TEST(ReadScene, WhatAnEditorAddsIsIgnored)
 
 TEST(ReadScene, OnlyTheSceneThatIsInstancedCounts)
 {
-    std::string xml = tests::SceneText().str();
+    std::string xml = transport_test::SceneText().str();
     const std::string other =
         "<visual_scene id=\"other\"><node><instance_geometry url=\"#gone\"/></node></visual_scene>";
     xml.insert(xml.find("<visual_scene"), other);

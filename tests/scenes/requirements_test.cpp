@@ -1,7 +1,7 @@
 #include "scenes/requirements.h"
 
 #include "scenes/read_scene.h"
-#include "tests/transport/scene_files.h"
+#include "tests/ref/transport/scene_files.h"
 
 #include <gtest/gtest.h>
 
@@ -187,7 +187,7 @@ std::string stated_requirements(const std::filesystem::path& file)
 
 class OurScene : public testing::TestWithParam<std::filesystem::path> {};
 
-INSTANTIATE_TEST_SUITE_P(All, OurScene, testing::ValuesIn(tests::our_scene_files()),
+INSTANTIATE_TEST_SUITE_P(All, OurScene, testing::ValuesIn(transport_test::our_scene_files()),
                          [](const auto& tested) { return tested.param.stem().string(); });
 
 TEST_P(OurScene, ReadsWithoutNoticesAndHasACamera)
@@ -218,7 +218,7 @@ void expect_all(const std::set<Enumeration>& required)
 TEST(OurScenes, RequireEveryEnumeratorAtLeastOnce)
 {
     scenes::Requirements all;
-    for (const std::filesystem::path& file : tests::our_scene_files()) {
+    for (const std::filesystem::path& file : transport_test::our_scene_files()) {
         scenes::Requirements one = requirements(scenes::read_scene(file));
         all.shapes.merge(one.shapes);
         all.bsdfs.merge(one.bsdfs);

@@ -8,7 +8,7 @@
 #include <charconv>
 #include <string>
 
-namespace tests {
+namespace transport_test {
 
 /// The text of a file; each part goes into its library.
 struct SceneText {
@@ -123,4 +123,4 @@ inline std::string error_of(const SceneText& text)
     return "";
 }
 
-} // namespace tests
+} // namespace transport_test

@@ -17,7 +17,7 @@
 namespace {
 
 using scenes::Vec3;
-using tests::exactly;
+using transport_test::exactly;
 
 constexpr double rounding = 0x1p-53;
 
@@ -77,12 +77,12 @@ const std::vector<Vec3> local_points = {{1, 2, 3}, {-4, 5, 6}, {7, -8, 9}};
 
 std::vector<Vec3> read_below(const std::vector<std::vector<Step>>& nodes)
 {
-    tests::SceneText text;
-    text.geometries =
-        tests::mesh("t", "1 2 3 -4 5 6 7 -8 9", 3,
-                    "<triangles material=\"m\" count=\"1\"><input semantic=\"VERTEX\" source=\"#t-v\" "
-                    "offset=\"0\"/><p>0 1 2</p></triangles>");
-    text.nodes = tests::instance_geometry("t");
+    transport_test::SceneText text;
+    text.geometries = transport_test::mesh(
+        "t", "1 2 3 -4 5 6 7 -8 9", 3,
+        "<triangles material=\"m\" count=\"1\"><input semantic=\"VERTEX\" source=\"#t-v\" "
+        "offset=\"0\"/><p>0 1 2</p></triangles>");
+    text.nodes = transport_test::instance_geometry("t");
     bool mirrored = false;
     for (const auto& steps : std::views::reverse(nodes)) {
         std::string transforms;

@@ -10,11 +10,11 @@
 namespace {
 
 /// A triangle in front of nothing, lit by nothing: the picture needs a geometry and a material.
-tests::SceneText with_triangle()
+transport_test::SceneText with_triangle()
 {
-    tests::SceneText text;
-    text.geometries = tests::triangle_mesh("t");
-    text.nodes = tests::node(tests::instance_geometry("t"));
+    transport_test::SceneText text;
+    text.geometries = transport_test::triangle_mesh("t");
+    text.nodes = transport_test::node(transport_test::instance_geometry("t"));
     return text;
 }
 
@@ -66,8 +66,8 @@ TEST(Unused, IdsMayBeDoubledWhereNothingRefersToThem)
     EXPECT_EQ(fault_of(with_library("<library_images><image id=\"i\"/><image id=\"i\"/><image id=\"\"/>"
                                     "<image id=\"\"/></library_images>")),
               "");
-    tests::SceneText text = with_triangle();
-    text.nodes = "<node id=\"n\">" + tests::instance_geometry("t") + "</node><node id=\"n\"/>";
+    transport_test::SceneText text = with_triangle();
+    text.nodes = "<node id=\"n\">" + transport_test::instance_geometry("t") + "</node><node id=\"n\"/>";
     EXPECT_EQ(fault_of(text.str()), "");
     // A reference in what is not used itself does not count.
     text.library_nodes = "<node><instance_node url=\"#n\"/></node>";
@@ -80,8 +80,8 @@ TEST(Unused, IdsMayBeDoubledWhereNothingRefersToThem)
 TEST(Unused, MaterialsBoundToSymbolsOfNoPartAreNotRead)
 {
     const auto bound_beside = [](const std::string& more) {
-        tests::SceneText text = with_triangle();
-        tests::add_material(text, "odd", "<velvet/>");
+        transport_test::SceneText text = with_triangle();
+        transport_test::add_material(text, "odd", "<velvet/>");
         text.materials += "<material id=\"two\"/><material id=\"two\"/>";
         text.nodes.insert(text.nodes.find("<instance_material"), more);
         return text.str();
@@ -97,7 +97,7 @@ TEST(Unused, MaterialsBoundToSymbolsOfNoPartAreNotRead)
 
 TEST(Unused, CamerasAfterTheFirstAreNotRead)
 {
-    tests::SceneText text = with_triangle();
+    transport_test::SceneText text = with_triangle();
     text.cameras = "<camera id=\"c\"><optics><technique_common><perspective><xfov>40</xfov>"
                    "</perspective></technique_common></optics></camera>";
     text.nodes += "<node><instance_camera url=\"#c\"/><instance_camera url=\"#gone\"/></node>";

@@ -9,17 +9,17 @@
 
 namespace {
 
-using tests::Shape;
-using tests::WholePoint;
+using transport_test::Shape;
+using transport_test::WholePoint;
 
 bool cross(const Shape& shape)
 {
-    return scenes::polygons::cross(tests::points_of(shape), tests::rings_of(shape));
+    return scenes::polygons::cross(transport_test::points_of(shape), transport_test::rings_of(shape));
 }
 
 RC_GTEST_PROP(Crossings, SimplePolygonsHaveNone, ())
 {
-    RC_ASSERT(!cross({tests::any_simple_ring(30)}));
+    RC_ASSERT(!cross({transport_test::any_simple_ring(30)}));
 }
 
 // Where two edges have a point in common that is a corner of neither, and are not in line, they cross.
@@ -38,10 +38,10 @@ RC_GTEST_PROP(Crossings, AreSeenWhereverTheyAre, ())
             const WholePoint& b = ring[(i + 1) % n];
             const WholePoint& c = ring[j];
             const WholePoint& d = ring[(j + 1) % n];
-            const auto abc = tests::twice_area(a, b, c);
-            const auto abd = tests::twice_area(a, b, d);
-            const auto cda = tests::twice_area(c, d, a);
-            const auto cdb = tests::twice_area(c, d, b);
+            const auto abc = transport_test::twice_area(a, b, c);
+            const auto abd = transport_test::twice_area(a, b, d);
+            const auto cda = transport_test::twice_area(c, d, a);
+            const auto cdb = transport_test::twice_area(c, d, b);
             const bool on_a_line = abc == 0 || abd == 0 || cda == 0 || cdb == 0;
             touch = touch || (j > i + 1 && (j + 1) % n != i && on_a_line);
             expected = expected || (!on_a_line && (abc < 0) != (abd < 0) && (cda < 0) != (cdb < 0));

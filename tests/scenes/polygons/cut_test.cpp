@@ -10,33 +10,34 @@
 
 namespace {
 
-using tests::PointTriangle;
-using tests::Shape;
-using tests::WholePoint;
+using transport_test::PointTriangle;
+using transport_test::Shape;
+using transport_test::WholePoint;
 
 std::optional<std::vector<PointTriangle>> cut(const Shape& shape)
 {
-    return scenes::polygons::cut_polygon(tests::points_of(shape), tests::rings_of(shape));
+    return scenes::polygons::cut_polygon(transport_test::points_of(shape),
+                                         transport_test::rings_of(shape));
 }
 
 /// What is wrong with the triangles of a polygon; empty if nothing is. Without rounding.
 std::string faults(const Shape& shape, const std::optional<std::vector<PointTriangle>>& triangles)
 {
     if (!triangles) return "not cut";
-    const std::vector<WholePoint> corners = tests::all_corners(shape);
+    const std::vector<WholePoint> corners = transport_test::all_corners(shape);
     const std::size_t holes = shape.size() - 1;
     if (triangles->size() != corners.size() + 2 * holes - 2)
         return std::to_string(triangles->size()) + " triangles";
     std::int64_t area = 0;
     std::set<std::uint32_t> used;
     for (const auto& [a, b, c] : *triangles) {
-        const std::int64_t one = tests::twice_area(corners[a], corners[b], corners[c]);
+        const std::int64_t one = transport_test::twice_area(corners[a], corners[b], corners[c]);
         if (one < 0) return "a triangle is clockwise";
         area += one;
         used.insert({a, b, c});
     }
     if (used.size() != corners.size()) return "a corner is not used";
-    if (area != tests::twice_area(shape)) return "the areas do not add up";
+    if (area != transport_test::twice_area(shape)) return "the areas do not add up";
     return "";
 }
 
@@ -44,7 +45,7 @@ std::string faults(const Shape& shape, const std::optional<std::vector<PointTria
 /// They are thirds of whole numbers, and those on an edge count for nothing.
 bool covers_once(const Shape& shape, const std::vector<PointTriangle>& triangles)
 {
-    const std::vector<WholePoint> corners = tests::all_corners(shape);
+    const std::vector<WholePoint> corners = transport_test::all_corners(shape);
     const auto tripled = [&](std::uint32_t i) { return WholePoint{3 * corners[i].x, 3 * corners[i].y}; };
     for (int i = 0; i < 20; ++i) {
         // Near the corners there is most to see.
@@ -55,21 +56,21 @@ bool covers_once(const Shape& shape, const std::vector<PointTriangle>& triangles
         int in = 0;
         bool on_edge = false;
         for (const auto& [a, b, c] : triangles) {
-            const std::int64_t ab = tests::twice_area(tripled(a), tripled(b), p);
-            const std::int64_t bc = tests::twice_area(tripled(b), tripled(c), p);
-            const std::int64_t ca = tests::twice_area(tripled(c), tripled(a), p);
+            const std::int64_t ab = transport_test::twice_area(tripled(a), tripled(b), p);
+            const std::int64_t bc = transport_test::twice_area(tripled(b), tripled(c), p);
+            const std::int64_t ca = transport_test::twice_area(tripled(c), tripled(a), p);
             if (ab > 0 && bc > 0 && ca > 0) ++in;
             on_edge = on_edge || (ab >= 0 && bc >= 0 && ca >= 0 && (ab == 0 || bc == 0 || ca == 0));
         }
-        if (!on_edge && in != (tests::is_inside(shape, p) ? 1 : 0)) return false;
+        if (!on_edge && in != (transport_test::is_inside(shape, p) ? 1 : 0)) return false;
     }
     return true;
 }
 
 RC_GTEST_PROP(CutPolygon, SimplePolygonsAreCoveredOnceByTrianglesThatDoNotTurnOver, ())
 {
-    const Shape shape = {tests::any_simple_ring(30)};
-    RC_LOG(tests::text_of(shape));
+    const Shape shape = {transport_test::any_simple_ring(30)};
+    RC_LOG(transport_test::text_of(shape));
     const auto triangles = cut(shape);
     RC_ASSERT(faults(shape, triangles) == "");
     RC_ASSERT(covers_once(shape, *triangles));
@@ -77,8 +78,8 @@ RC_GTEST_PROP(CutPolygon, SimplePolygonsAreCoveredOnceByTrianglesThatDoNotTurnOv
 
 RC_GTEST_PROP(CutPolygon, WithHolesItIsTheSame, ())
 {
-    const Shape shape = tests::any_shape_with_holes(20, 5);
-    RC_LOG(tests::text_of(shape));
+    const Shape shape = transport_test::any_shape_with_holes(20, 5);
+    RC_LOG(transport_test::text_of(shape));
     const auto triangles = cut(shape);
     RC_ASSERT(faults(shape, triangles) == "");
     RC_ASSERT(covers_once(shape, *triangles));
@@ -87,7 +88,7 @@ RC_GTEST_PROP(CutPolygon, WithHolesItIsTheSame, ())
 // A corner given twice or more, a spike: of no area, and so are their triangles.
 RC_GTEST_PROP(CutPolygon, RepeatedCornersAndSpikesDoNoHarm, ())
 {
-    Shape shape = {tests::any_simple_ring(15)};
+    Shape shape = {transport_test::any_simple_ring(15)};
     for (WholePoint& p : shape[0]) p = {2 * p.x, 2 * p.y};
     const int additions = *rc::gen::inRange(1, 6);
     for (int i = 0; i < additions; ++i) {
@@ -102,7 +103,7 @@ RC_GTEST_PROP(CutPolygon, RepeatedCornersAndSpikesDoNoHarm, ())
                  (corner.y + next.y) % 2 == 0) // half the edge, there and back
             ring.insert(place, {{(corner.x + next.x) / 2, (corner.y + next.y) / 2}, corner});
     }
-    RC_LOG(tests::text_of(shape));
+    RC_LOG(transport_test::text_of(shape));
     RC_ASSERT(faults(shape, cut(shape)) == "");
 }
 
@@ -127,9 +128,9 @@ RC_GTEST_PROP(CutPolygon, AConvexPolygonIsAFanAroundItsFirstCorner, ())
 TEST(CutPolygon, StarsSpiralsAndCombs)
 {
     for (const int n : {3, 4, 5, 20, 300}) {
-        for (const Shape& shape :
-             {Shape{tests::star(n)}, Shape{tests::spiral(n)}, Shape{tests::comb(n)}}) {
-            ASSERT_TRUE(n > 20 || tests::is_simple(shape[0])) << n;
+        for (const Shape& shape : {Shape{transport_test::star(n)}, Shape{transport_test::spiral(n)},
+                                   Shape{transport_test::comb(n)}}) {
+            ASSERT_TRUE(n > 20 || transport_test::is_simple(shape[0])) << n;
             Shape turned = shape; // any corner may be the first
             for (std::size_t i = 0; i<shape[0].size(); i += n> 20 ? 97 : 1) {
                 std::rotate(turned[0].begin(), turned[0].begin() + 1, turned[0].end());

@@ -10,15 +10,15 @@
 namespace {
 
 using scenes::polygons::cut_ears;
-using tests::PointTriangle;
-using tests::Shape;
-using tests::WholePoint;
+using transport_test::PointTriangle;
+using transport_test::Shape;
+using transport_test::WholePoint;
 
 std::int64_t area_of(const Shape& shape, const std::vector<PointTriangle>& triangles)
 {
     std::int64_t area = 0;
     for (const auto& [a, b, c] : triangles) {
-        const std::int64_t one = tests::twice_area(shape[0][a], shape[0][b], shape[0][c]);
+        const std::int64_t one = transport_test::twice_area(shape[0][a], shape[0][b], shape[0][c]);
         EXPECT_GE(one, 0);
         area += one;
     }
@@ -27,19 +27,21 @@ std::int64_t area_of(const Shape& shape, const std::vector<PointTriangle>& trian
 
 RC_GTEST_PROP(CutEars, TrianglesOfASimplePolygonAllHaveAnArea, ())
 {
-    const Shape shape = {tests::any_simple_ring(30)};
-    const auto triangles = cut_ears(tests::points_of(shape), tests::rings_of(shape)[0]);
+    const Shape shape = {transport_test::any_simple_ring(30)};
+    const auto triangles =
+        cut_ears(transport_test::points_of(shape), transport_test::rings_of(shape)[0]);
     RC_ASSERT(triangles.has_value());
     RC_ASSERT(triangles->size() == shape[0].size() - 2);
     for (const auto& [a, b, c] : *triangles)
-        RC_ASSERT(tests::twice_area(shape[0][a], shape[0][b], shape[0][c]) > 0);
+        RC_ASSERT(transport_test::twice_area(shape[0][a], shape[0][b], shape[0][c]) > 0);
 }
 
 TEST(CutEars, AConvexPolygonIsNotCutIntoAFan)
 {
     Shape shape(1);
     for (std::int64_t x = 0; x < 64; ++x) shape[0].push_back({x, x * x});
-    const auto triangles = cut_ears(tests::points_of(shape), tests::rings_of(shape)[0]);
+    const auto triangles =
+        cut_ears(transport_test::points_of(shape), transport_test::rings_of(shape)[0]);
     ASSERT_TRUE(triangles.has_value());
     std::vector<int> uses(64);
     for (const PointTriangle& triangle : *triangles)
@@ -53,7 +55,8 @@ TEST(CutEars, AConvexPolygonIsNotCutIntoAFan)
 TEST(CutEars, SpikesGoFirst)
 {
     const Shape shape = {{{0, 1}, {1, 0}, {0, 1}, {0, 0}, {1, 0}, {1, 1}, {1, 0}, {1, 1}}};
-    const auto triangles = cut_ears(tests::points_of(shape), tests::rings_of(shape)[0]);
+    const auto triangles =
+        cut_ears(transport_test::points_of(shape), transport_test::rings_of(shape)[0]);
     ASSERT_TRUE(triangles.has_value());
     EXPECT_EQ(area_of(shape, *triangles), 2);
 }
@@ -63,16 +66,18 @@ TEST(CutEars, SpikesGoFirst)
 TEST(CutEars, ACornerThatIsVisitedTwice)
 {
     const Shape shape = {{{1, 2}, {1, 1}, {3, 0}, {3, 3}, {2, 1}, {1, 2}, {0, 2}, {0, 0}}};
-    const auto triangles = cut_ears(tests::points_of(shape), tests::rings_of(shape)[0]);
+    const auto triangles =
+        cut_ears(transport_test::points_of(shape), transport_test::rings_of(shape)[0]);
     ASSERT_TRUE(triangles.has_value());
-    EXPECT_EQ(area_of(shape, *triangles), tests::twice_area(shape));
+    EXPECT_EQ(area_of(shape, *triangles), transport_test::twice_area(shape));
 }
 
 TEST(CutEars, NothingButSpikes)
 {
     Shape shape(1);
     for (int i = 0; i < 10000; ++i) shape[0].push_back({i % 2, 0});
-    const auto triangles = cut_ears(tests::points_of(shape), tests::rings_of(shape)[0]);
+    const auto triangles =
+        cut_ears(transport_test::points_of(shape), transport_test::rings_of(shape)[0]);
     ASSERT_TRUE(triangles.has_value());
     EXPECT_EQ(area_of(shape, *triangles), 0);
 }
@@ -80,7 +85,8 @@ TEST(CutEars, NothingButSpikes)
 TEST(CutEars, AClockwiseOutlineHasNone)
 {
     const Shape shape = {{{0, 0}, {0, 2}, {2, 2}, {2, 0}}};
-    EXPECT_FALSE(cut_ears(tests::points_of(shape), tests::rings_of(shape)[0]).has_value());
+    EXPECT_FALSE(
+        cut_ears(transport_test::points_of(shape), transport_test::rings_of(shape)[0]).has_value());
 }
 
 } // namespace

@@ -12,22 +12,22 @@
 
 namespace {
 
-using tests::Ring;
-using tests::Shape;
-using tests::WholePoint;
+using transport_test::Ring;
+using transport_test::Shape;
+using transport_test::WholePoint;
 
 Shape any_shape()
 {
-    Shape shape = tests::any_shape_with_holes(15, 5);
+    Shape shape = transport_test::any_shape_with_holes(15, 5);
     for (std::size_t i = 1; i < shape.size(); ++i)
-        if (tests::twice_area(shape[i]) > 0) std::reverse(shape[i].begin(), shape[i].end());
+        if (transport_test::twice_area(shape[i]) > 0) std::reverse(shape[i].begin(), shape[i].end());
     return shape;
 }
 
 std::optional<Ring> join(const Shape& shape)
 {
-    const std::vector<Ring> rings = tests::rings_of(shape);
-    return scenes::polygons::join_holes(tests::points_of(shape), rings[0],
+    const std::vector<Ring> rings = transport_test::rings_of(shape);
+    return scenes::polygons::join_holes(transport_test::points_of(shape), rings[0],
                                         {rings.begin() + 1, rings.end()});
 }
 
@@ -36,7 +36,7 @@ RC_GTEST_PROP(JoinHoles, TheWalkHasEveryEdgeOnceAndEveryBridgeThereAndBack, ())
     const Shape shape = any_shape();
     const auto walk = join(shape);
     RC_ASSERT(walk.has_value());
-    const std::size_t corners = tests::all_corners(shape).size();
+    const std::size_t corners = transport_test::all_corners(shape).size();
     const std::size_t holes = shape.size() - 1;
     RC_ASSERT(walk->size() == corners + 2 * holes);
 
@@ -56,8 +56,8 @@ RC_GTEST_PROP(JoinHoles, BridgesCrossNothing, ())
 {
     const Shape shape = any_shape();
     const std::vector<Ring> walk = {join(shape).value()};
-    RC_LOG(tests::text_of(shape));
-    RC_ASSERT(!scenes::polygons::cross(tests::points_of(shape), walk));
+    RC_LOG(transport_test::text_of(shape));
+    RC_ASSERT(!scenes::polygons::cross(transport_test::points_of(shape), walk));
 }
 
 TEST(JoinHoles, AHoleOutsideIsNotReached)

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace tests {
+namespace transport_test {
 
 using scenes::polygons::Point;
 using scenes::polygons::PointTriangle;
@@ -248,4 +248,4 @@ inline std::vector<WholePoint> comb(int teeth)
     return ring;
 }
 
-} // namespace tests
+} // namespace transport_test

@@ -17,8 +17,8 @@ using scenes::Vec3;
 using scenes::polygons::Corners;
 using scenes::polygons::PolygonFaults;
 using scenes::polygons::Polygons;
-using tests::Shape;
-using tests::WholePoint;
+using transport_test::Shape;
+using transport_test::WholePoint;
 
 struct Result {
     std::vector<Corners> triangles;
@@ -44,7 +44,7 @@ struct Plane {
     [[nodiscard]] std::vector<Vec3> positions(const Shape& shape) const
     {
         std::vector<Vec3> result;
-        for (const WholePoint& p : tests::all_corners(shape))
+        for (const WholePoint& p : transport_test::all_corners(shape))
             result.push_back(origin + static_cast<double>(p.x) * u + static_cast<double>(p.y) * v);
         return result;
     }
@@ -69,24 +69,25 @@ Vec3 area_vector(const Corners& c)
 
 RC_GTEST_PROP(Triangulate, APlanarPolygonInAnyPlaneIsCutExactly, ())
 {
-    const Shape shape = *rc::gen::arbitrary<bool>() ? tests::any_shape_with_holes(12, 3)
-                                                    : Shape{tests::any_simple_ring(20)};
+    const Shape shape = *rc::gen::arbitrary<bool>() ? transport_test::any_shape_with_holes(12, 3)
+                                                    : Shape{transport_test::any_simple_ring(20)};
     const Plane plane = any_plane();
     const Result result = triangulate(shape, plane.positions(shape));
     RC_ASSERT(result.faults.non_planar == 0 && result.faults.crossed == 0);
-    RC_ASSERT(result.triangles.size() == tests::all_corners(shape).size() + 2 * shape.size() - 4);
+    RC_ASSERT(result.triangles.size() ==
+              transport_test::all_corners(shape).size() + 2 * shape.size() - 4);
     Vec3 sum(0.0);
     for (const Corners& triangle : result.triangles) {
         RC_ASSERT(glm::dot(area_vector(triangle), plane.normal()) >= 0);
         sum += area_vector(triangle);
     }
-    RC_ASSERT(sum ==
-              static_cast<double>(tests::twice_area(shape)) * plane.normal()); // all are whole numbers
+    RC_ASSERT(sum == static_cast<double>(transport_test::twice_area(shape)) *
+                         plane.normal()); // all are whole numbers
 }
 
 RC_GTEST_PROP(Triangulate, ItFacesTheOtherWayWhenItsCornersAreReversed, ())
 {
-    Shape shape = {tests::any_simple_ring(20)};
+    Shape shape = {transport_test::any_simple_ring(20)};
     std::reverse(shape[0].begin(), shape[0].end());
     const Plane plane = any_plane();
     const Result result = triangulate(shape, plane.positions(shape));
@@ -98,7 +99,7 @@ RC_GTEST_PROP(Triangulate, ItFacesTheOtherWayWhenItsCornersAreReversed, ())
 // From the smallest numbers to the largest: products of coordinates would overflow, or vanish.
 RC_GTEST_PROP(Triangulate, TheSizeMakesNoDifference, ())
 {
-    const Shape shape = {tests::any_simple_ring(12)};
+    const Shape shape = {transport_test::any_simple_ring(12)};
     const std::vector<Vec3> positions = any_plane().positions(shape);
     const int exponent = *rc::gen::inRange(-1000, 1000);
     std::vector<Vec3> scaled;
@@ -117,7 +118,7 @@ RC_GTEST_PROP(Triangulate, TheSizeMakesNoDifference, ())
 
 RC_GTEST_PROP(Triangulate, AWarpedPolygonIsCutAsItsProjection, ())
 {
-    const Shape shape = {tests::any_simple_ring(20)};
+    const Shape shape = {transport_test::any_simple_ring(20)};
     RC_PRE(shape[0].size() > 4U);
     const Plane plane = any_plane();
     const Vec3 normal = plane.normal();
@@ -212,7 +213,7 @@ TEST(Triangulate, PolygonsAreTakenOneAfterTheOther)
 
 TEST(Triangulate, VeryManyCornersAreRefusedUnlessConvex)
 {
-    const Shape large = {tests::star(20000)};
+    const Shape large = {transport_test::star(20000)};
     const Plane plane{Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
     const Result star = triangulate(large, plane.positions(large));
     EXPECT_EQ(star.faults.too_large, 1);

@@ -1,0 +1,52 @@
+#pragma once
+
+// OpenEXR pictures: 32-bit floats with names, so that one file holds mean, standard error, layers, what
+// the picture says about its making, and all it takes to go on rendering.
+//
+//   R G B                            mean
+//   se.R se.G se.B                   standard error of the mean
+//   NAME.R NAME.G NAME.B             a further picture, "s2t3" for example; some in 16-bit halves
+//   state.mean.R.hi state.mean.R.lo  the film's mean and sum of squared deviations ("state.squares..."),
+//                                    each double as two 32-bit words: lossless, as no float is
+//   attribute plumbline.KEY          metadata, as a string
+//   attribute plumblineBatches       batches in the film, as a string
+
+#include "images/film.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace images {
+
+/// Pictures of the same size by name. A name is not empty, is neither "se" nor begins with "state", and
+/// has neither zero bytes nor more than 200 bytes.
+using Layers = std::map<std::string, Image>;
+
+/// Whether a file can be rendered on from. Goldens are finished: they are stored without their state.
+enum class FilmState { keep, omit };
+
+/// Writes the film as ZIP-compressed EXR (see the head of this file), values rounded to float but for
+/// the state, and to 16 bits in `half_layers`. Throws ImageError, and std::invalid_argument for layers
+/// that break the rules above.
+void write_exr(const std::filesystem::path& path, const Film& film, const Metadata& metadata,
+               const Layers& layers = {}, FilmState state = FilmState::keep,
+               const Layers& half_layers = {});
+
+struct ExrPicture {
+    Image mean;
+    std::optional<Image> standard_error;
+    Layers layers; // complete R, G, B triples; other channels (depth, alpha, ...) are passed over
+    Metadata metadata;
+    std::optional<Film> film; // the exact state
+};
+
+/// Reads one of our files or another renderer's: half or float, scan lines or tiles, any order of
+/// channels. The picture is the data window, wherever it lies. Values may be NaN (see
+/// first_non_finite). `layer`, if it is not empty, is the picture to take instead of R, G, B; standard
+/// error and state, which belong to those, are left out then. Throws ImageError for what is no such
+/// picture: several parts, deep data, no R, G and B, no such layer, an incomplete state, damage.
+ExrPicture read_exr(const std::filesystem::path& path, const std::string& layer = "");
+
+} // namespace images

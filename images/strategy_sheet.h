@@ -1,0 +1,22 @@
+#pragma once
+
+// The classic picture of bidirectional path tracing [Veach 1997, sec. 10.3]: all strategies at one
+// glance.
+
+#include "images/image.h"
+
+#include <map>
+#include <utility>
+
+namespace images {
+
+/// Pictures of the same size by strategy (s, t), s >= 0, t >= 1.
+using Strategies = std::map<std::pair<int, int>, Image>;
+
+/// One row for each path length k = s + t - 1, its strategies from s = 0 on the left to t = 1 on the
+/// right, each labelled; strategies that are not there are black. Longer paths carry less light: row k
+/// is shown max(0, k - 2) stops brighter, and says so. Throws std::invalid_argument if there are no
+/// strategies or their sizes differ.
+Image strategy_sheet(const Strategies& strategies);
+
+} // namespace images

@@ -1,0 +1,134 @@
+// Buffers, and what happens when there is no more room for one.
+
+#include "cuda/parallel/buffer.h"
+#include "cuda/trees/lbvh.h"
+#include "tests/cuda/trees/build_on.h"
+#include "tests/ref/trees/boxes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+
+namespace {
+
+using gpu::Buffer;
+
+/// Has so many bytes, and knows what it gave out.
+class SmallMemory : public gpu::Memory {
+public:
+    explicit SmallMemory(std::size_t bytes) : free(bytes) {}
+    void release(void* block) noexcept override
+    {
+        const auto entry = held_.find(block);
+        if (entry == held_.end()) std::abort(); // given back twice, or never given out
+        free += entry->second;
+        held_.erase(entry);
+        host_.release(block);
+    }
+    void write(void* to, const void* from, std::size_t bytes) override { host_.write(to, from, bytes); }
+    void read(void* to, const void* from, std::size_t bytes) override { host_.read(to, from, bytes); }
+    [[nodiscard]] std::size_t blocks() const { return held_.size(); }
+
+    std::size_t free; // bytes
+
+private:
+    void* try_allocate(std::size_t bytes) override
+    {
+        if (bytes > free) return nullptr;
+        void* const block = host_.allocate(bytes);
+        free -= bytes;
+        held_[block] = bytes;
+        return block;
+    }
+    [[nodiscard]] std::size_t free_bytes() const override { return free; }
+    [[nodiscard]] std::string name() const override { return "a small memory"; }
+
+    gpu::HostMemory host_;
+    std::map<void*, std::size_t> held_;
+};
+
+TEST(Buffer, GivesItsMemoryBackOnceAndOnlyOnce)
+{
+    SmallMemory memory(1000);
+    {
+        Buffer<float> a(memory, 100);
+        EXPECT_EQ(memory.free, 600u);
+        Buffer<float> b = std::move(a);
+        EXPECT_EQ(b.size(), 100u);
+        EXPECT_EQ(a.size(), 0u); // NOLINT: moved from, and empty
+        Buffer<float> c(memory, 10);
+        c = std::move(b);
+        EXPECT_EQ(c.size(), 100u);
+        const Buffer<float> none(memory, 0);
+        EXPECT_TRUE(none.all().empty());
+    }
+    EXPECT_EQ(memory.free, 1000u);
+    EXPECT_EQ(memory.blocks(), 0u);
+}
+
+TEST(Buffer, KeepsWhatIsWritten)
+{
+    gpu::HostMemory memory;
+    const std::vector<int> numbers = {3, 1, 4, 1, 5};
+    Buffer<int> buffer(memory, numbers);
+    EXPECT_EQ(buffer.read(5), numbers);
+    buffer.write(std::vector{9, 2});
+    EXPECT_EQ(buffer.read(3), (std::vector{9, 2, 4}));
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(buffer.all().data()) % 64, 0u);
+}
+
+TEST(OutOfMemory, NamesTheMemoryTheBytesWantedAndTheBytesFree)
+{
+    SmallMemory memory(1000);
+    const Buffer<char> held(memory, 300);
+    try {
+        const Buffer<float> too_much(memory, 200);
+        FAIL() << "800 bytes out of 700";
+    } catch (const gpu::OutOfMemory& error) {
+        EXPECT_STREQ(error.what(), "a small memory is exhausted: 800 bytes wanted, 700 bytes free");
+    }
+    EXPECT_EQ(memory.blocks(), 1u);
+}
+
+TEST(OutOfMemory, WhereverItHappensATreeGivesEverythingBackAndTheNextOneIsBuilt)
+{
+    trees_test::Random random(1);
+    const auto boxes = cuda_test::rounded(trees_test::boxes(trees_test::Kind::uniform, 100, random));
+    gpu::SerialExecutor executor;
+    SmallMemory memory(1 << 20);
+    std::size_t needed = 0;
+    {
+        const gpu::Lbvh<std::uint32_t> tree(memory, executor, 100);
+        needed = (1 << 20) - memory.free;
+    }
+    // Every amount that is a little too small for one of the buffers.
+    int failures = 0;
+    for (std::size_t bytes = 0; bytes < needed; bytes += 100) {
+        memory.free = bytes;
+        EXPECT_THROW(gpu::Lbvh<std::uint32_t>(memory, executor, 100), gpu::OutOfMemory) << bytes;
+        EXPECT_EQ(memory.free, bytes);
+        EXPECT_EQ(memory.blocks(), 0u);
+        ++failures;
+    }
+    EXPECT_GT(failures, 50);
+
+    memory.free = needed;
+    gpu::Lbvh<std::uint32_t> tree(memory, executor, 100);
+    EXPECT_EQ(memory.free, 0u); // nothing is left for a build to allocate
+    tree.build(executor, boxes);
+    EXPECT_EQ(tree.first_rejected(), gpu::no_primitive);
+}
+
+TEST(Lbvh, RefusesMoreBoxesThanItHasRoomFor)
+{
+    gpu::HostMemory memory;
+    gpu::SerialExecutor executor;
+    gpu::Lbvh<std::uint32_t> tree(memory, executor, 3);
+    const std::vector<gpu::Box> boxes(4, gpu::Box{gpu::Vec3(0), gpu::Vec3(1)});
+    EXPECT_THROW(tree.build(executor, boxes), std::length_error);
+    EXPECT_THROW(gpu::Lbvh<std::uint32_t>(memory, executor, gpu::most_primitives + 1),
+                 std::invalid_argument);
+}
+
+} // namespace

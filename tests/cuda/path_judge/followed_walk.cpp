@@ -1,0 +1,147 @@
+#include "tests/cuda/path_judge/followed_walk.h"
+
+#include "tests/cuda/path_judge/path_rounding.h"
+#include "tests/cuda/path_judge/ray_verdict.h"
+
+#include <optional>
+
+namespace cuda_test {
+
+namespace {
+
+using ref::Vec3;
+
+Verdict verdict_on(const ref::World& world, const gpu::Ray& ray, std::uint32_t primitive, double slack)
+{
+    const scenes::Scene& scene = world.scene;
+    if (primitive < scene.triangles.size()) {
+        const auto& v = scene.triangles[primitive].vertices;
+        return verdict(ray, gpu::Triangle{{gpu::Vec3(v[0]), gpu::Vec3(v[1]), gpu::Vec3(v[2])}}, slack);
+    }
+    const auto& sphere = scene.spheres[primitive - scene.triangles.size()];
+    return verdict(ray, gpu::Sphere{gpu::Vec3(sphere.center), static_cast<float>(sphere.radius)}, slack);
+}
+
+/// What `ray` found, or nothing, against what the reference finds by the same ray.
+void require_closest(const ref::World& world, const gpu::Ray& ray, double slack,
+                     std::optional<std::uint32_t> found)
+{
+    const auto closest = ref::intersect(world.geometry, exactly(ray));
+    if (closest && found != closest->primitive) {
+        const Verdict missed = verdict_on(world, ray, closest->primitive, slack);
+        const bool is_before = !found || missed.highest < verdict_on(world, ray, *found, slack).lowest;
+        require(!(missed.certain && is_before), "a ray misses what it hits");
+    }
+    if (found) require(verdict_on(world, ray, *found, slack).possible, "a ray hits what it misses");
+}
+
+/// That the point found is where `ray` meets its primitive.
+void require_position(const ref::World& world, const gpu::Ray& ray, double slack,
+                      const gpu::SurfacePoint& point)
+{
+    const Verdict verdict = verdict_on(world, ray, point.primitive, slack);
+    const Vec3 d(ray.direction);
+    const Vec3 from = Vec3(point.position) - Vec3(ray.origin);
+    const double t = glm::dot(from, d) / glm::dot(d, d);
+    // The weights of a triangle's vertices, and t and the ray's own sum where it is a sphere; then what
+    // any point of the surface may err by.
+    double size = glm::length(from) + glm::length(Vec3(ray.origin));
+    double across = slack;
+    if (point.primitive < world.scene.triangles.size()) {
+        const auto& v = world.scene.triangles[point.primitive].vertices;
+        const double edges = glm::length(v[1] - v[0]) + glm::length(v[2] - v[0]);
+        across += 3 * verdict.margin * edges + moved_off_edges(v, Vec3(point.position));
+        size += edges;
+    } else {
+        const auto& sphere = world.scene.spheres[point.primitive - world.scene.triangles.size()];
+        size += glm::length(sphere.center) + sphere.radius;
+        // Reprojection moves it by as much as the hit was off the sphere (sphere.h: 22 u M).
+        across += 44 * roundoff * (glm::length(Vec3(ray.origin) - sphere.center) + sphere.radius);
+    }
+    across += 8 * roundoff * size;
+    require(glm::length(from - t * d) <= across, "a vertex is off its ray");
+    require(t >= verdict.lowest - across && t <= verdict.highest + across,
+            "a vertex is not where its ray meets the surface");
+}
+
+double angle_between(const Vec3& a, const Vec3& b)
+{
+    return glm::length(glm::normalize(a) - glm::normalize(b));
+}
+
+/// A vertex as the floats have it; alpha as the reference does.
+ref::Vertex vertex_of(const Setting& setting, const gpu::WalkVertex& vertex, const NextStep& step)
+{
+    for (int i = 0; i < 3; ++i)
+        require(std::abs(vertex.alpha[i] - step.alpha[i]) <= step.alpha_error * step.alpha[i] + 0x1p-100,
+                "the weight of a walk");
+    return surface_vertex(setting.world, surface_of(setting.world, vertex.point), step.alpha);
+}
+
+/// Of the ways that a walk may go that which it went in direction `d`.
+NextStep step_taken(const std::vector<NextStep>& steps, const Vec3& d)
+{
+    require(!steps.empty(), "a walk goes on that has to end");
+    for (const NextStep& step : steps)
+        if (glm::length(d - step.direction) <= step.error) return step;
+    throw Disagreement("the direction of a walk");
+}
+
+/// A walk may end without a word in the very plane of a surface.
+void require_in_plane(const ref::World& world, const NextStep& step)
+{
+    const ref::Ray ray{step.origin, step.direction};
+    const auto hit = ref::intersect(world.geometry, ray);
+    require(hit.has_value(), "a walk ends that goes on to infinity");
+    const double cosine = glm::dot(surface_point(world.geometry, ray, *hit).normal, step.direction);
+    require(std::abs(cosine) <= cosine_error + step.error, "a walk ends that goes on");
+    throw Undecided("a walk in the plane of a surface");
+}
+
+} // namespace
+
+void follow(const Setting& setting, ref::Transport carried, const WatchedSample::Walk& recorded,
+            std::size_t most_vertices, NextStep step, FollowedWalk& walk)
+{
+    const ref::World& world = setting.world;
+    std::vector<NextStep> steps = {step};
+    for (std::size_t n = 1;; ++n) {
+        const bool met = n <= recorded.vertices.size();
+        const bool over = n >= most_vertices || steps.empty() || steps[0].alpha == ref::Rgb(0);
+        require(!over || (!met && !recorded.missed), "a walk goes on that has to end");
+        if (over) return;
+        if (ref::max_component(steps[0].alpha) < 0x1p-100)
+            throw Undecided("too little light for floats");
+        if (!met && !recorded.missed) require_in_plane(world, steps[0]);
+
+        const gpu::Vec3 d = met ? -recorded.vertices[n - 1].wo : recorded.missed->ray.direction;
+        step = step_taken(steps, Vec3(d));
+        const gpu::Ray ray{gpu::Vec3(step.origin), std::numeric_limits<float>::infinity(), d};
+        if (!met) {
+            require_closest(world, ray, step.slack, std::nullopt);
+            if (carried == ref::Transport::radiance && world.scene.environment) {
+                walk.vertices.push_back(
+                    infinity_vertex(*world.emitters.environment(), Vec3(d), step.alpha));
+                walk.turned.push_back(0);
+                walk.alpha_error.push_back(step.alpha_error);
+            }
+            return;
+        }
+        const gpu::WalkVertex& vertex = recorded.vertices[n - 1];
+        require(vertex.n == static_cast<int>(n), "the number of a vertex");
+        require_closest(world, ray, step.slack, vertex.point.primitive);
+        require_on_surface(world, vertex.point);
+        require_position(world, ray, step.slack, vertex.point);
+        const ref::Vertex& last = walk.vertices.back();
+        walk.turned.push_back(
+            last.kind == ref::Vertex::Kind::infinity
+                ? 0
+                : angle_between(Vec3(vertex.point.position) - last.point.position, Vec3(d)));
+        walk.vertices.push_back(vertex_of(setting, vertex, step));
+        walk.alpha_error.push_back(step.alpha_error);
+        steps =
+            n + 1 < most_vertices ? next_steps(setting, carried, vertex, step) : std::vector<NextStep>{};
+    }
+}
+
+} // namespace cuda_test

@@ -1,0 +1,164 @@
+#include "tests/cuda/path_judge/judged_paths.h"
+
+#include <numeric>
+#include <sstream>
+
+namespace cuda_test {
+
+void Tally::add(const Tally& other)
+{
+    samples += other.samples;
+    contributions += other.contributions;
+    grazing += other.grazing;
+    weights_left_open += other.weights_left_open;
+    for (const auto& [why, count] : other.samples_left) samples_left[why] += count;
+    for (const auto& [why, count] : other.strategies_left) strategies_left[why] += count;
+}
+
+long Tally::left() const
+{
+    long sum = 0;
+    for (const auto& [why, count] : samples_left) sum += count;
+    for (const auto& [why, count] : strategies_left) sum += count;
+    return sum;
+}
+
+std::string Tally::report() const
+{
+    std::ostringstream text;
+    text << samples << " samples, " << contributions << " contributions compared, " << weights_left_open
+         << " of them without weight; " << grazing << " grazing\n";
+    for (const auto& [why, count] : samples_left)
+        text << "  samples left: " << count << ": " << why << '\n';
+    for (const auto& [why, count] : strategies_left)
+        text << "  strategies left: " << count << ": " << why << '\n';
+    return text.str();
+}
+
+namespace {
+
+/// A product that becomes subnormal loses 2^-150; the factors that follow make less than 2^50 of it.
+constexpr double underflow = 0x1p-100;
+
+gpu::PathOptions float_options(const ref::PathOptions& options)
+{
+    return {options.seed, options.max_edges,
+            options.heuristic == ref::Heuristic::power ? gpu::Heuristic::power
+                                                       : gpu::Heuristic::balance};
+}
+
+[[noreturn]] void differ(const std::string& what, double floats, double reference, double bound)
+{
+    std::ostringstream text;
+    text << what << ": " << floats << ", the reference says " << reference << ", bound " << bound;
+    throw Disagreement(text.str());
+}
+
+/// The pixel is that of a point within the error of the film point.
+void require_pixel(std::uint32_t pixel, int width, const Judged& judged)
+{
+    const double x = pixel % static_cast<std::uint32_t>(width);
+    const double y = pixel / static_cast<std::uint32_t>(width);
+    const double e = judged.film_error;
+    require(judged.x >= x - e && judged.x <= x + 1 + e && judged.y >= y - e && judged.y <= y + 1 + e,
+            "the pixel of a light image");
+}
+
+void compare(const WatchedSample::Found& found, const Judged& judged, Tally& tally)
+{
+    for (int i = 0; i < 3; ++i) {
+        const double bound = judged.value_error * judged.value[i] + underflow;
+        if (!(std::abs(found.value[i] - judged.value[i]) <= bound))
+            differ("value", found.value[i], judged.value[i], bound);
+    }
+    if (!(std::abs(found.weight - judged.weight) <= judged.weight_error))
+        differ("weight", found.weight, judged.weight, judged.weight_error);
+    ++tally.contributions;
+    if (std::isinf(judged.weight_error)) ++tally.weights_left_open;
+}
+
+/// What the floats found of one strategy, or nothing, against what they must.
+template <class Strategy>
+void judge_strategy_of(const Setting& setting, const WatchedSample::Found* found, std::size_t t,
+                       const Strategy& strategy, Tally& tally)
+{
+    try {
+        const std::optional<Judged> judged = strategy(found != nullptr);
+        if (found == nullptr) {
+            require(!judged || ref::max_component(judged->value) < underflow,
+                    "a contribution is missing");
+            return;
+        }
+        require(judged.has_value(), "a contribution that cannot be");
+        if (t == 1)
+            require_pixel(found->pixel, setting.world.camera.width(), *judged);
+        else
+            require(found->pixel == setting.id.pixel, "the pixel of a sample");
+        compare(*found, *judged, tally);
+    } catch (const Undecided& why) {
+        ++tally.strategies_left[why.what()];
+    } catch (const Grazing& bound) {
+        ++tally.grazing;
+        for (int i = 0; found != nullptr && i < 3; ++i)
+            if (!(found->value[i] <= 1.01 * bound.most[i] + underflow))
+                differ("a connection in the plane of a surface", found->value[i], 0, bound.most[i]);
+    }
+}
+
+} // namespace
+
+void judge_sample(const Setting& setting, const WatchedScene& scene, gpu::Integrator integrator,
+                  Tally& tally)
+{
+    const WatchedSample sample = scene.sample(integrator, float_options(setting.options),
+                                              {setting.id.seed, setting.id.pixel, setting.id.sample});
+    require(!sample.found_twice, "a strategy contributes twice");
+    ++tally.samples;
+    FollowedWalk y;
+    FollowedWalk z;
+    const bool light = integrator != gpu::Integrator::path;
+    const bool eye = integrator != gpu::Integrator::light;
+    try {
+        if (light) {
+            const int most = scene.most_light_vertices(integrator, setting.options.max_edges);
+            y = followed_light_walk(setting, sample, static_cast<std::size_t>(most));
+        }
+        if (eye)
+            z = followed_eye_walk(setting, sample);
+        else
+            z = {{eye_vertex(setting.world)}, {0}, {0}};
+    } catch (const Undecided& why) {
+        ++tally.samples_left[why.what()];
+        return;
+    }
+    const PathJudge judge(setting, integrator, y, z);
+    auto left = sample.found;
+    const auto check = [&](std::size_t s, std::size_t t, const auto& judge_strategy) {
+        const auto entry = left.find({static_cast<int>(s), static_cast<int>(t)});
+        const bool is_found = entry != left.end();
+        try {
+            judge_strategy_of(setting, is_found ? &entry->second : nullptr, t, judge_strategy, tally);
+        } catch (const Disagreement& why) {
+            throw Disagreement("s = " + std::to_string(s) + ", t = " + std::to_string(t) + ": " +
+                               why.what());
+        }
+        if (is_found) left.erase(entry);
+    };
+    // Of max_edges at most: s + t - 1 edges.
+    const auto longest = static_cast<std::size_t>(setting.options.max_edges);
+    for (std::size_t t = 2; t <= z.vertices.size(); ++t) {
+        check(0, t, [&](bool) { return judge.emission_hit(t); });
+        if (t > longest || z.vertices[t - 1].kind == ref::Vertex::Kind::infinity) continue;
+        check(1, t, [&](bool found) { return judge.next_event(t, found); });
+        for (std::size_t s = 2; s <= y.vertices.size() && s + t - 1 <= longest; ++s)
+            check(s, t, [&](bool found) { return judge.inner_connection(s, t, found); });
+    }
+    for (std::size_t s = 1; s <= y.vertices.size(); ++s)
+        check(s, 1, [&](bool found) { return judge.light_image(s, found); });
+    if (!left.empty())
+        throw Disagreement("s = " + std::to_string(left.begin()->first.first) +
+                           ", t = " + std::to_string(left.begin()->first.second) +
+                           ": a contribution that no two walks can make");
+}
+
+} // namespace cuda_test

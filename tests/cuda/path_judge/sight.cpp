@@ -1,0 +1,55 @@
+#include "tests/cuda/path_judge/sight.h"
+
+#include "tests/cuda/path_judge/path_rounding.h"
+#include "tests/cuda/path_judge/ray_verdict.h"
+
+#include "scenes/contacts.h"
+
+#include <cmath>
+
+namespace cuda_test {
+
+double end_slack(const ref::World& world, const ref::Vec3& end)
+{
+    // contact_arrays.cpp: 30 u D for the surface, and clearance.h: 24 u D for the longest segment.
+    const double clearance = 54 * roundoff * world.geometry.diagonal();
+    if (scenes::surfaces_near(world.scene, end, clearance).empty()) return 0;
+    return std::sqrt(3.0) * clearance; // along three planes at right angles
+}
+
+void explain_sight(const ref::World& world, const LineOfSight& line, bool seen)
+{
+    const scenes::Scene& scene = world.scene;
+    const ref::Vec3 direction = line.to_infinity ? line.to : line.to - line.from;
+    const float t_max = line.to_infinity ? std::numeric_limits<float>::infinity() : 1.0f;
+    const gpu::Ray ray{gpu::Vec3(line.from), t_max, gpu::Vec3(direction)};
+    // The ray here is rounded as that of the floats is.
+    const double rounding = 4 * roundoff * (glm::length(line.from) + glm::length(direction));
+    // A direction that turns by an angle passes what is in the scene at that angle times two diagonals.
+    const double far_slack =
+        line.to_infinity ? 2 * world.geometry.diagonal() * line.to_slack : line.to_slack;
+    bool may_be_hit = false;
+    for (std::uint32_t i = 0; i < scenes::primitive_count(scene); ++i) {
+        // At an end only that end matters: elsewhere the line is away from its surface.
+        const double slack = rounding + (line.start == i ? line.from_slack
+                                         : line.end == i ? line.to_slack
+                                                         : std::max(line.from_slack, far_slack));
+        const std::size_t triangles = scene.triangles.size();
+        Verdict judged{};
+        if (i < triangles) {
+            const auto& v = scene.triangles[i].vertices;
+            judged =
+                verdict(ray, gpu::Triangle{{gpu::Vec3(v[0]), gpu::Vec3(v[1]), gpu::Vec3(v[2])}}, slack);
+        } else {
+            const auto& sphere = scene.spheres[i - triangles];
+            judged = verdict(
+                ray, gpu::Sphere{gpu::Vec3(sphere.center), static_cast<float>(sphere.radius)}, slack);
+        }
+        require(!(seen && judged.certain), "a line of sight is not seen to be blocked");
+        may_be_hit = may_be_hit || judged.possible;
+    }
+    require(seen || may_be_hit, "a line of sight is blocked by nothing");
+    throw Undecided("a line of sight along an edge");
+}
+
+} // namespace cuda_test

@@ -1,0 +1,81 @@
+// Scenes of any size and in any place: the same picture, though floats have seven digits.
+
+#include "cuda/transport/renderer.h"
+#include "scenes/bounds.h"
+#include "tests/ref/transport/changed_scene.h"
+#include "tests/ref/transport/scene_files.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+std::vector<scenes::Scene> all_scenes()
+{
+    std::vector<scenes::Scene> result;
+    for (const auto& file : transport_test::our_scene_files())
+        result.push_back(scenes::read_scene(file));
+    return result;
+}
+
+images::Image picture_of(const scenes::Scene& scene)
+{
+    gpu::RenderOptions options;
+    options.max_edges = 6;
+    options.deterministic = true;
+    return gpu::host_renderer(scene, 24, 16, options, 1)->render_batch(0, {})->mean;
+}
+
+double diameter(const scenes::Scene& scene)
+{
+    const auto box = scenes::bounds(scene);
+    return box ? glm::length(box->max - box->min) : 0.0;
+}
+
+/// The share of pixels that differ by more than a thousandth. The same random numbers make the same
+/// paths but where rounding decides, which is at edges that a ray passes within some 2^-20 of a scene's
+/// diameter, and a curved mirror or glass can stretch that: a few samples in a thousand.
+double share_of_different_pixels(const images::Image& a, const images::Image& b)
+{
+    int different = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        if (!(glm::length(a.pixels[i] - b.pixels[i]) <= 1e-3 * glm::length(a.pixels[i]))) ++different;
+    return different / static_cast<double>(a.pixels.size());
+}
+
+/// Lights of no extent are measured by the square of a length: as far as that is a number.
+constexpr int largest_exponent = 300;
+
+RC_GTEST_PROP(Anywhere, ScalingByAPowerOfTwoChangesNoBit, ())
+{
+    static const std::vector<scenes::Scene> scenes = all_scenes();
+    const auto& scene = *rc::gen::elementOf(scenes);
+    const double factor = std::ldexp(1.0, *rc::gen::inRange(-largest_exponent, largest_exponent));
+    RC_ASSERT(picture_of(transport_test::scaled(scene, factor)) == picture_of(scene));
+}
+
+TEST(Anywhere, TheSmallestAndTheLargestSizeOfEverySceneChangeNoBit)
+{
+    for (const auto& scene : all_scenes())
+        for (const int exponent : {-largest_exponent, largest_exponent})
+            EXPECT_TRUE(picture_of(transport_test::scaled(scene, std::ldexp(1.0, exponent))) ==
+                        picture_of(scene))
+                << scene.name << " by 2^" << exponent;
+}
+
+RC_GTEST_PROP(Anywhere, ThePictureIsTheSameAtAnySizeAndPlace, ())
+{
+    static const std::vector<scenes::Scene> scenes = all_scenes();
+    const auto& scene = *rc::gen::elementOf(scenes);
+    const double factor = std::pow(10.0, *rc::gen::inRange(-30, 31) / 10.0);
+    const double distance = diameter(scene) * std::pow(10.0, *rc::gen::inRange(0, 41) / 10.0);
+    const auto changed = transport_test::scaled(
+        transport_test::moved(scene, distance * scenes::Vec3(0.6, -0.64, 0.48)), factor);
+    // One pixel in 50: of four samples each and up to 40 contributions.
+    RC_ASSERT(share_of_different_pixels(picture_of(scene), picture_of(changed)) <= 0.02);
+}
+
+} // namespace

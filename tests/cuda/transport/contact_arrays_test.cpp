@@ -1,0 +1,154 @@
+// The ends of paths that are no surfaces: the eye, point and spot lights. Judging paths from the floats'
+// own vertices does not see where the floats have put these; so their place is judged here, by the scene
+// in double precision: they begin their rays on the side of every surface on which they are, however
+// near it.
+
+#include "cuda/transport/scene_arrays.h"
+#include "cuda/trees/clearance.h"
+#include "scenes/contacts.h"
+#include "tests/cuda/transport/touching_scenes.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using cuda_test::Touching;
+using scenes::Vec3;
+
+/// As kernels do it (leave_end).
+Vec3 origin_of(const gpu::SceneArrays& arrays, const gpu::Vec3& position,
+               const gpu::EndContacts& contacts, const gpu::Vec3& direction, float length)
+{
+    gpu::Vec3 origin = position;
+    for (std::uint32_t i = 0; i < contacts.plane_count; ++i) {
+        const gpu::ContactPlane& plane = arrays.contact_planes[contacts.first_plane + i];
+        const float clearance = std::max(0.0f, plane.clearance + gpu::clearance_per_length * length);
+        origin += (glm::dot(direction, plane.normal) < 0 ? -clearance : clearance) * plane.push;
+    }
+    return Vec3(origin);
+}
+
+/// How far `p` is from the triangle's plane as floats have it, along its normal.
+double height_over(const gpu::Triangle& triangle, const Vec3& p)
+{
+    const Vec3 a(triangle.vertices[0]);
+    const Vec3 normal =
+        glm::normalize(glm::cross(Vec3(triangle.vertices[1]) - a, Vec3(triangle.vertices[2]) - a));
+    return glm::dot(p - a, normal);
+}
+
+Vec3 any_direction()
+{
+    const auto any = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
+    const Vec3 w(any(), any(), any());
+    return glm::length(w) > 0.1 ? glm::normalize(w) : Vec3(0.6, 0, 0.8);
+}
+
+/// Checks the origin of a ray from an end at `exact` (in the scene's own coordinates).
+void check_end(const scenes::Scene& scene, const gpu::SceneArrays& arrays, const Vec3& exact,
+               const gpu::Vec3& position, const gpu::EndContacts& contacts)
+{
+    const gpu::Vec3 direction(any_direction());
+    // Of a ray that leaves, or of a segment of any length that comes.
+    const double length =
+        static_cast<double>(arrays.diagonal) * std::max(0, *rc::gen::inRange(-5, 11)) / 10;
+    const Vec3 origin = origin_of(arrays, position, contacts, direction, static_cast<float>(length));
+    const double near = 1e-3 / arrays.place.scale;
+    int looked_at = 0;
+    for (const scenes::NearSurface& surface : scenes::surfaces_near(scene, exact, near)) {
+        if (surface.primitive >= arrays.triangles.size()) continue;
+        const double height = height_over(arrays.triangles[surface.primitive], origin);
+        const int side = surface.side != 0                               ? surface.side
+                         : glm::dot(Vec3(direction), surface.normal) < 0 ? -1
+                                                                         : 1;
+        // What a ray or segment may err by (clearance.h, steps 3 and 4): nearer than that a plane would
+        // be met by chance.
+        const auto& v = arrays.triangles[surface.primitive].vertices;
+        const Vec3 a(gpu::triangle_extent(v[1] - v[0], v[2] - v[0]));
+        const Vec3 n = glm::abs(surface.normal);
+        const double uncertain =
+            2 * glm::dot(n, a) + 5 * std::max({a.x, a.y, a.z}) * (n.x + n.y + n.z) + 11.7 * length;
+        RC_ASSERT(side * height > 0x1p-24 * uncertain);
+        ++looked_at;
+    }
+    RC_CLASSIFY(looked_at > 0, "near a triangle");
+    // And it stays where it is: three planes at right angles move it by sqrt(3) clearances at most, each
+    // of 14 u D for the ray, 3 u D for what was rounded, and 24 u for each unit of length.
+    RC_ASSERT(glm::length(origin - (exact - arrays.place.origin) * arrays.place.scale) <
+              std::sqrt(3.0) * 0x1p-24 * (18 * arrays.diagonal + 24.1 * length));
+}
+
+RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())
+{
+    const auto kind = *rc::gen::element(Touching::point_light_on_lamp, Touching::point_light_on_wall,
+                                        Touching::point_light_in_corner, Touching::spot_light_on_wall,
+                                        Touching::eye_on_wall, Touching::eye_in_edge);
+    // None, or anything from far below a float's rounding to far above.
+    const double gap =
+        *rc::gen::inRange(0, 4) == 0 ? 0 : std::pow(10, -0.1 * *rc::gen::inRange(30, 120));
+    const scenes::Scene scene =
+        cuda_test::touching_scene(kind, *rc::gen::inRange<std::uint32_t>(0, 1u << 30), gap);
+    const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+    check_end(scene, arrays, scene.camera->eye, arrays.place(scene.camera->eye), arrays.eye_contacts);
+    for (std::size_t i = 0; i < arrays.emitters.size(); ++i) {
+        const gpu::Emitter& emitter = arrays.emitters[i];
+        const gpu::Light& light = arrays.lights[i];
+        if (emitter.kind == gpu::EmitterKind::point)
+            check_end(scene, arrays, scene.point_lights[emitter.index].position, light.position,
+                      light.contacts);
+        if (emitter.kind == gpu::EmitterKind::spot)
+            check_end(scene, arrays, scene.spot_lights[emitter.index].position, light.position,
+                      light.contacts);
+    }
+}
+
+TEST(EndsOfPaths, OfAnOrdinarySceneTouchNothing)
+{
+    scenes::Scene scene = cuda_test::touching_scene(Touching::point_light_on_wall, 1, 0.01);
+    const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+    EXPECT_TRUE(arrays.contact_planes.empty());
+    EXPECT_TRUE(arrays.contact_triangles.empty());
+    EXPECT_TRUE(arrays.coincident.empty());
+}
+
+// Floats cannot tell a lamp that is 1e-9 in front of its wall from one behind it; doubles can.
+TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
+{
+    for (const double gap : {1e-9, -1e-9, 0.0}) {
+        const scenes::Scene scene = cuda_test::touching_scene(Touching::lamp_in_wall, 2, gap);
+        const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+        // The lamp's triangles are the last; the wall that they coincide with faces as they do.
+        const gpu::SurfaceContacts& lamp = arrays.surface_contacts[arrays.surfaces.back().contacts];
+        ASSERT_GT(lamp.coincident_count, 0u);
+        for (std::uint32_t i = 0; i < lamp.coincident_count; ++i)
+            EXPECT_EQ(arrays.coincident[lamp.first_coincident + i].side, gap == 0  ? 0
+                                                                         : gap > 0 ? -1
+                                                                                   : 1)
+                << gap;
+    }
+    const scenes::Scene apart = cuda_test::touching_scene(Touching::lamp_in_wall, 2, 1e-4);
+    EXPECT_TRUE(gpu::scene_arrays(apart, true).coincident.empty());
+}
+
+// They may be as small as the distance up to which surfaces are near.
+TEST(CoincidentSurfaces, AreFoundHoweverSmall)
+{
+    for (const double size : {1.0, 1e-2, 1e-4, 1e-5}) {
+        scenes::Scene scene;
+        scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
+        scene.material_names = {"wall"};
+        const Vec3 at(0.3, 0.2, 0.4);
+        const scenes::Triangle small{{at, at + Vec3(size, 0, 0), at + Vec3(0, size, 0)}, 0};
+        scene.triangles = {{{Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0)}, 0}, small, small};
+        const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+        for (const std::size_t i : {1, 2})
+            EXPECT_EQ(arrays.surface_contacts[arrays.surfaces[i].contacts].coincident_count, 1u) << size;
+    }
+}
+
+} // namespace

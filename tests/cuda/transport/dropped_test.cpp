@@ -1,0 +1,77 @@
+// Contributions that are not finite never reach a film; how many there were does not depend on threads.
+
+#include "cuda/parallel/threaded_executor.h"
+#include "cuda/transport/film.h"
+#include "tests/cuda/parallel/interleaved_executor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// A film of few pixels in the memory of the host.
+struct SmallFilm {
+    static constexpr std::uint32_t pixels = 4;
+    std::vector<gpu::Rgb> own = std::vector<gpu::Rgb>(64, gpu::Rgb(0.0f));
+    std::vector<gpu::Rgb> splats = std::vector<gpu::Rgb>(pixels, gpu::Rgb(0.0f));
+    std::vector<gpu::DroppedCount> dropped = std::vector<gpu::DroppedCount>(1);
+    gpu::FilmTarget target{own, {splats, {}}, {}, dropped, false, pixels};
+};
+
+/// Kernel over samples: each adds a finite contribution, and one that is not, to its pixel and to
+/// another.
+struct AddToFilm {
+    gpu::FilmTarget target;
+    void operator()(std::uint32_t i) const
+    {
+        const std::uint32_t pixel = 1 + i % 3;
+        gpu::FilmSink sink(target, pixel);
+        sink.add(1, 2, gpu::Rgb(1.0f, 2.0f, 3.0f), 0.5f);
+        sink.add(2, 2, gpu::Rgb(1.0f, i % 2 == 0 ? nan : infinity, 3.0f), 1.0f);
+        sink.splat(pixel, 2, gpu::Rgb(1.0f), 1.0f);
+        sink.splat(pixel, 3, gpu::Rgb(1.0f), nan);
+        target.own[i] = sink.own();
+    }
+};
+
+template <class Executor>
+void expect_all_dropped(Executor& executor)
+{
+    SmallFilm film;
+    executor(30, AddToFilm{film.target});
+    for (std::uint32_t i = 0; i < 30; ++i) EXPECT_EQ(film.own[i], gpu::Rgb(0.5f, 1.0f, 1.5f));
+    for (std::uint32_t pixel = 1; pixel < 4; ++pixel) EXPECT_EQ(film.splats[pixel], gpu::Rgb(10.0f));
+    EXPECT_EQ(film.dropped[0].count, 60u);
+    EXPECT_EQ(film.dropped[0].least_key, gpu::dropped_key(1, 2, 2)); // before s = 3, t = 1
+}
+
+TEST(DroppedContributions, AreCountedAndLeftOutOneByOne)
+{
+    gpu::SerialExecutor executor;
+    expect_all_dropped(executor);
+}
+
+TEST(DroppedContributions, AreCountedAndLeftOutByManyThreads)
+{
+    gpu::ThreadedExecutor executor(4);
+    expect_all_dropped(executor);
+}
+
+TEST(DroppedContributions, NoneIsLostWhoeverComesBetween)
+{
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        std::mt19937 random(seed);
+        cuda_test::InterleavedExecutor executor(
+            4, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(random()) % ready; });
+        expect_all_dropped(executor);
+    }
+}
+
+} // namespace

@@ -1,0 +1,67 @@
+#pragma once
+
+// Lights over the plane z = 0, and what they do to a picture of it, in closed form.
+//
+// A picture's mean is the integral of the irradiance over the film, by the rule of Gauss and Legendre
+// with 6 x 6 points per quarter, which for functions as smooth as these is exact to 1e-9. Light that
+// falls on a part of the picture only, from a narrow spot, is integrated over the directions of the spot
+// instead.
+
+#include "tests/cuda/transport/odd_builder.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace cuda_test {
+
+/// The film reaches from -span to span on both axes at the distance 1 from the eye.
+struct PlaneEye {
+    scenes::Vec3 from, right, up, along;
+    double span;
+};
+
+/// Irradiance at a point of the plane z = 0, in coordinates of the frame.
+using Irradiance = std::function<scenes::Rgb(const scenes::Vec3&)>;
+
+/// Half the full angle of the narrowest spot light: the fast path rejects any below 1.53e-5.
+inline constexpr double narrowest_spot = 2e-5;
+
+/// Collects lights and what they do.
+class LitPlane {
+public:
+    LitPlane(OddBuilder& builder, const PlaneEye& eye) : builder_(builder), eye_(eye)
+    {
+        watch(-eye.along.z);
+    }
+
+    void add_point();
+    void add_spot();
+    void add_narrow_spot();
+    void add_sun();
+    void add_sky();
+    void add_lamp();
+
+    [[nodiscard]] const scenes::Rgb& irradiance() const { return irradiance_; } // its mean over the film
+    [[nodiscard]] bool has_narrow_spot() const { return narrow_; }
+    [[nodiscard]] bool far_or_low() const { return far_or_low_; } // any but lights near and above it
+    /// How much larger than a unit roundoff the relative errors are that lengths in units of the frame,
+    /// and angles, make in what the lights do: 1 / length and 1 / cosine.
+    [[nodiscard]] double condition() const { return condition_; }
+    /// What single precision may change in the power of a narrow spot light, relative to it.
+    [[nodiscard]] double spot_tolerance() const { return spot_tolerance_; }
+
+private:
+    void light(const Irradiance& irradiance);
+    void watch(double length_or_cosine) { condition_ = std::max(condition_, 1 / length_or_cosine); }
+    scenes::Vec3 any_place();
+
+    OddBuilder& builder_;
+    PlaneEye eye_;
+    scenes::Rgb irradiance_{0};
+    bool narrow_ = false, far_or_low_ = false;
+    double condition_ = 10;
+    double spot_tolerance_ = 0;
+    scenes::Rgb under_sky_{0}; // mean over the film of the irradiance that a lamp hides, per radiance
+};
+
+} // namespace cuda_test

@@ -1,0 +1,332 @@
+// From samples to batches: nothing is lost, nothing counted twice, and nothing depends on how the work
+// is divided.
+
+#include "cuda/transport/batch_renderer.h"
+#include "cuda/transport/host_kernels.h"
+#include "tests/cuda/parallel/on_device.h"
+#include "tests/cuda/transport/recording.h"
+#include "tests/ref/transport/scene_files.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using cuda_test::Recorded;
+using cuda_test::Recorder;
+using gpu::Integrator;
+using transport_test::our_scene;
+
+constexpr int width = 12;
+constexpr int height = 9;
+
+gpu::RenderOptions short_paths(Integrator integrator)
+{
+    gpu::RenderOptions options;
+    options.integrator = integrator;
+    options.max_edges = 5;
+    options.seed = 7;
+    return options;
+}
+
+/// On the host, with launches of just `launch` samples.
+images::Image batch_of(const scenes::Scene& scene, const gpu::RenderOptions& options, unsigned threads,
+                       std::uint32_t launch, std::uint64_t number)
+{
+    gpu::HostMemory memory;
+    gpu::ThreadedExecutor executor(threads, 1);
+    gpu::BatchRenderer renderer(memory, executor, {launch, launch, std::size_t{1} << 30}, scene, width,
+                                height, options);
+    return renderer.render_batch(number, {})->mean;
+}
+
+TEST(LaunchSize, GrowsAndShrinksBetweenItsLimits)
+{
+    using std::chrono::milliseconds;
+    gpu::LaunchSize size({64, 256, 1 << 20}, 64);
+    EXPECT_EQ(size.get(), 64u);
+    for (int i = 0; i < 5; ++i) size.took(milliseconds(1));
+    EXPECT_EQ(size.get(), 256u);
+    size.took(milliseconds(60));
+    EXPECT_EQ(size.get(), 256u);
+    for (int i = 0; i < 5; ++i) size.took(milliseconds(500));
+    EXPECT_EQ(size.get(), 64u);
+    // What does not fit in memory at once is done in turn, a single sample at the least.
+    EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 100).most(), 8u);
+    EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 100).get(), 8u);
+    EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 5000).most(), 1u);
+}
+
+/// Counts what is launched.
+struct CountingExecutor {
+    std::vector<std::uint32_t> counts;
+    template <gpu::Kernel K>
+    void operator()(std::uint32_t count, const K& kernel)
+    {
+        counts.push_back(count);
+        for (std::uint32_t i = 0; i < count; ++i) kernel(i);
+    }
+};
+
+// With a small number for what an index can count.
+TEST(Clear, ReachesEveryElementOnceHoweverManyLaunchesItTakes)
+{
+    using Counts = std::vector<std::uint32_t>;
+    const auto launches = [](std::size_t size) {
+        std::vector<std::uint64_t> elements(size + 1, 5);
+        CountingExecutor executor;
+        gpu::clear(executor, std::span(elements).first(size), 7);
+        EXPECT_EQ(std::accumulate(elements.begin(), elements.end(), std::uint64_t{0}), 5u);
+        EXPECT_EQ(elements.back(), 5u);
+        return executor.counts;
+    };
+    EXPECT_EQ(launches(0), Counts{});
+    EXPECT_EQ(launches(6), Counts{6});
+    EXPECT_EQ(launches(7), Counts{7});
+    EXPECT_EQ(launches(8), (Counts{7, 1}));
+    EXPECT_EQ(launches(21), (Counts{7, 7, 7}));
+    static_assert(gpu::most_per_launch == std::numeric_limits<std::uint32_t>::max());
+}
+
+template <class Function>
+std::string refusal_of(const Function& function)
+{
+    try {
+        function();
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(BatchRenderer, RefusesWhatItsNumbersCannotCount)
+{
+    EXPECT_EQ(gpu::pixel_count(65535, 65537), 0xffff'ffffu);
+    const auto size = [](int w, int h) {
+        return refusal_of([&] { (void)gpu::host_renderer(our_scene("cornell_glass"), w, h, {}, 1); });
+    };
+    const std::string expected = " pixels: expected 1 to 4294967295 pixels";
+    EXPECT_EQ(size(65536, 65536), "a picture of 65536x65536" + expected); // 2^32 would be none at all
+    EXPECT_EQ(size(65537, 65536), "a picture of 65537x65536" + expected); // and this 65536
+    EXPECT_EQ(size(0, 5), "a picture of 0x5" + expected);
+    EXPECT_EQ(size(-2, -3), "a picture of -2x-3" + expected);
+
+    const auto renderer =
+        gpu::host_renderer(our_scene("cornell_glass"), 2, 2, short_paths(Integrator::path), 1);
+    const std::uint64_t last = (std::uint64_t{1} << 32) / 4 - 1; // of four samples per pixel
+    EXPECT_TRUE(renderer->render_batch(last, {}));
+    EXPECT_EQ(refusal_of([&] { (void)renderer->render_batch(last + 1, {}); }),
+              "batch 1073741824 of 4 samples per pixel: a pixel has at most 2^32 samples");
+    EXPECT_EQ(gpu::first_sample_of(0xffff'ffff, 1), 0xffff'ffffu);
+    EXPECT_THROW((void)gpu::first_sample_of(std::uint64_t{1} << 62, 4), std::invalid_argument);
+}
+
+RC_GTEST_PROP(BatchRenderer, DeterministicBitsDependOnNothingButTheSamples, ())
+{
+    const auto scene =
+        our_scene(*rc::gen::element<std::string>("cornell_glass", "all_emitters", "mesh_knot"));
+    auto options = short_paths(*rc::gen::element(Integrator::path, Integrator::bdpt, Integrator::light));
+    options.deterministic = true;
+    options.batch_size = *rc::gen::inRange(1u, 6u);
+    const auto number = *rc::gen::inRange<std::uint64_t>(0, 4);
+    const images::Image one = batch_of(scene, options, 1, width * height * 8, number);
+    const auto threads = *rc::gen::inRange(1u, 4u);
+    const auto launch = *rc::gen::inRange(1u, 300u);
+    RC_ASSERT(batch_of(scene, options, threads, launch, number) == one);
+}
+
+/// The batch from the contributions of its samples, added up in double.
+images::Image sum_of_samples(const scenes::Scene& scene, const gpu::RenderOptions& options,
+                             std::uint64_t number)
+{
+    const Recorder recorder(scene, width, height);
+    images::Image sum(width, height);
+    for (std::uint32_t pixel = 0; pixel < width * height; ++pixel)
+        for (std::uint32_t i = 0; i < options.batch_size; ++i) {
+            const auto sample = static_cast<std::uint32_t>(number * options.batch_size + i);
+            for (const Recorded& c :
+                 recorder.sample(recorder.needs(), options.integrator,
+                                 {options.seed, options.max_edges, options.heuristic},
+                                 {options.seed, pixel, sample}))
+                sum.pixels[c.pixel] += images::Rgb(c.value) * static_cast<double>(c.weight);
+        }
+    for (images::Rgb& pixel : sum.pixels) pixel /= options.batch_size;
+    return sum;
+}
+
+TEST(BatchRenderer, AddsUpAllContributionsOfAllSamples)
+{
+    for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
+        const auto scene = our_scene("cornell_glass");
+        const auto options = short_paths(integrator);
+        const images::Image expected = sum_of_samples(scene, options, 3);
+        const images::Image batch = batch_of(scene, options, 2, 50, 3);
+        // A pixel is a sum of terms >= 0: each rounding errs by at most 2^-24 of the sum. A sample adds
+        // fewer than 32 terms to its own pixel, four samples are added in turn, and fewer than 1000
+        // splats fall on a pixel of so small a picture.
+        const double bound = 0x1p-24 * (32 + 4 + 1000);
+        for (std::size_t i = 0; i < expected.pixels.size(); ++i)
+            for (int channel = 0; channel < 3; ++channel)
+                EXPECT_NEAR(batch.pixels[i][channel], expected.pixels[i][channel],
+                            bound * expected.pixels[i][channel])
+                    << "pixel " << i;
+    }
+}
+
+TEST(BatchRenderer, ABatchDoesNotDependOnThoseBefore)
+{
+    auto options = short_paths(Integrator::bdpt);
+    options.layers = gpu::Layers::weighted;
+    const auto renderer = gpu::host_renderer(our_scene("cornell_glass"), width, height, options, 1);
+    const gpu::Batch first = *renderer->render_batch(0, {});
+    const gpu::Batch second = *renderer->render_batch(1, {});
+    EXPECT_FALSE(first.mean == second.mean);
+    const gpu::Batch again = *renderer->render_batch(0, {});
+    EXPECT_TRUE(again.mean == first.mean);
+    EXPECT_TRUE(again.layers == first.layers);
+}
+
+TEST(BatchRenderer, WeightedLayersAddUpToThePicture)
+{
+    for (const bool deterministic : {false, true}) {
+        auto options = short_paths(Integrator::bdpt);
+        options.layers = gpu::Layers::weighted;
+        options.deterministic = deterministic;
+        const auto renderer = gpu::host_renderer(our_scene("cornell_glass"), width, height, options, 2);
+        const gpu::Batch batch = *renderer->render_batch(0, {});
+        // (s, t) of 1 to 5 edges.
+        EXPECT_EQ(batch.layers.size(), 2u + 3 + 4 + 5 + 6);
+        for (std::size_t i = 0; i < batch.mean.pixels.size(); ++i) {
+            images::Rgb sum(0.0);
+            for (const auto& [strategy, image] : batch.layers) sum += image.pixels[i];
+            sum /= options.batch_size;
+            for (int channel = 0; channel < 3; ++channel) // roundings as above
+                EXPECT_NEAR(sum[channel], batch.mean.pixels[i][channel],
+                            0x1p-24 * 2 * (32 + 4 + 1000) * sum[channel]);
+        }
+    }
+}
+
+TEST(BatchRenderer, UnweightedLayersHoldWhatEachStrategyFound)
+{
+    const auto scene = our_scene("all_emitters");
+    auto options = short_paths(Integrator::bdpt);
+    options.layers = gpu::Layers::unweighted;
+    options.deterministic = true;
+    const auto renderer = gpu::host_renderer(scene, width, height, options, 2);
+    const gpu::Batch batch = *renderer->render_batch(0, {});
+    std::map<std::pair<int, int>, images::Rgb> expected;
+    const Recorder recorder(scene, width, height);
+    for (std::uint32_t pixel = 0; pixel < width * height; ++pixel)
+        for (std::uint32_t sample = 0; sample < options.batch_size; ++sample)
+            for (const Recorded& c :
+                 recorder.sample(recorder.needs(), Integrator::bdpt, {7, 5, gpu::Heuristic::balance},
+                                 {7, pixel, sample}))
+                expected[{c.s, c.t}] += images::Rgb(c.value);
+    for (const auto& [strategy, image] : batch.layers) {
+        const images::Rgb sum =
+            std::accumulate(image.pixels.begin(), image.pixels.end(), images::Rgb(0.0));
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(sum[channel], expected[strategy][channel], 1e-6 * expected[strategy][channel])
+                << strategy.first << ", " << strategy.second;
+    }
+}
+
+TEST(BatchRenderer, StopsBetweenLaunchesAndGoesOnAsIfNothingHadBeen)
+{
+    const auto renderer =
+        gpu::host_renderer(our_scene("cornell_diffuse"), 100, 100, short_paths(Integrator::bdpt), 1);
+    const images::Image whole = renderer->render_batch(2, {})->mean;
+    int asked = 0;
+    std::vector<double> parts;
+    const gpu::Monitor monitor{[&](double part) { parts.push_back(part); }, [&] { return ++asked > 2; }};
+    EXPECT_FALSE(renderer->render_batch(2, monitor));
+    ASSERT_EQ(parts.size(), 2u);
+    EXPECT_GT(parts[0], 0.0);
+    EXPECT_LT(parts[0], parts[1]);
+    EXPECT_LT(parts[1], 1.0);
+    EXPECT_TRUE(renderer->render_batch(2, {})->mean == whole);
+}
+
+TEST(BatchRenderer, RefusesOptionsThatContradictEachOther)
+{
+    const auto scene = our_scene("cornell_diffuse");
+    gpu::RenderOptions options;
+    options.max_edges = 0;
+    EXPECT_THROW(gpu::host_renderer(scene, 8, 8, options, 1), std::invalid_argument);
+    options.max_edges = gpu::most_edges_of_layers + 1;
+    options.layers = gpu::Layers::weighted;
+    EXPECT_THROW(gpu::host_renderer(scene, 8, 8, options, 1), std::invalid_argument);
+}
+
+TEST(BatchRenderer, ASceneWithoutLightIsBlack)
+{
+    scenes::Scene scene = our_scene("point_over_plane");
+    scene.point_lights.clear();
+    for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
+        const images::Image image = batch_of(scene, short_paths(integrator), 1, 64, 0);
+        for (const images::Rgb& pixel : image.pixels) EXPECT_EQ(pixel, images::Rgb(0.0));
+    }
+}
+
+// What a kernel leaves out changes no bit of what it computes.
+TEST(Needs, LeavingOutWhatASceneDoesNotHaveChangesNothing)
+{
+    bool seen[3][2] = {};
+    for (const auto& file : transport_test::our_scene_files()) {
+        const scenes::Scene scene = scenes::read_scene(file);
+        const Recorder recorder(scene, width, height);
+        const gpu::Needs needs = recorder.needs();
+        seen[0][needs.spheres ? 1 : 0] = true;
+        seen[1][needs.specular ? 1 : 0] = true;
+        seen[2][needs.other_lights ? 1 : 0] = true;
+        for (std::uint32_t pixel = 0; pixel < width * height; ++pixel)
+            for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
+                const gpu::PathOptions options{1, 6, gpu::Heuristic::balance};
+                EXPECT_EQ(recorder.sample(needs, integrator, options, {1, pixel, 0}),
+                          recorder.sample({true, true, true}, integrator, options, {1, pixel, 0}))
+                    << scene.name << ", pixel " << pixel;
+            }
+    }
+    for (const auto& need : seen) EXPECT_TRUE(need[0] && need[1]) << "some kernel is never used";
+}
+
+class RendererOnDevice : public cuda_test::OnDevice {};
+
+TEST_F(RendererOnDevice, GivesTheHostsPicture)
+{
+    for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
+        const auto scene = our_scene("cornell_glass");
+        auto options = short_paths(integrator);
+        options.deterministic = true;
+        const images::Image host = batch_of(scene, options, 1, 512, 0);
+        const images::Image device =
+            gpu::device_renderer(scene, width, height, options)->render_batch(0, {})->mean;
+        // Sine, cosine and power differ in their last bits between the two: now and then a path takes
+        // another turn, and a pixel of four samples is another. Most are the same to rounding.
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < host.pixels.size(); ++i)
+            if (glm::length(host.pixels[i] - device.pixels[i]) > 1e-3 * glm::length(host.pixels[i]))
+                ++different;
+        EXPECT_LE(different, host.pixels.size() / 20);
+    }
+}
+
+TEST_F(RendererOnDevice, DeterministicMeansTheSameBitsAgain)
+{
+    auto options = short_paths(Integrator::bdpt);
+    options.deterministic = true;
+    const auto renderer = gpu::device_renderer(our_scene("cornell_glass"), 64, 64, options);
+    const images::Image first = renderer->render_batch(0, {})->mean;
+    for (int i = 0; i < 10; ++i) EXPECT_TRUE(renderer->render_batch(0, {})->mean == first);
+}
+
+} // namespace

@@ -1,0 +1,111 @@
+// Splats from many threads at once: none is lost, whoever comes between.
+
+#include "cuda/parallel/threaded_executor.h"
+#include "cuda/transport/film.h"
+#include "tests/cuda/parallel/interleaved_executor.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace {
+
+constexpr std::size_t pixels = 3; // few: threads meet often
+
+/// Kernel over splats.
+struct AddSplats {
+    std::span<const float> values;
+    gpu::SplatTarget target;
+    void operator()(std::uint32_t i) const { target.add(i % pixels, gpu::Rgb(values[i])); }
+};
+
+/// The same with a sum that is read and written in two steps.
+struct AddTornSplats {
+    std::span<const float> values;
+    std::span<gpu::Rgb> sums;
+    void operator()(std::uint32_t i) const
+    {
+        const gpu::Rgb before = sums[i % pixels];
+        if (gpu::schedule_point != nullptr) gpu::schedule_point();
+        sums[i % pixels] = before + gpu::Rgb(values[i]);
+    }
+};
+
+std::vector<float> some_values(std::uint32_t seed, std::size_t count)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> exponent(-20, 20);
+    std::vector<float> values(count);
+    for (float& value : values) value = std::exp2(exponent(random));
+    return values;
+}
+
+double expected(const std::vector<float>& values, std::size_t pixel)
+{
+    double sum = 0;
+    for (std::size_t i = pixel; i < values.size(); i += pixels) sum += values[i];
+    return sum;
+}
+
+/// Whether floats hold the sums: every addition of terms >= 0 errs by at most 2^-24 of the sum.
+bool hold(const std::vector<gpu::Rgb>& sums, const std::vector<float>& values)
+{
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+        const double sum = expected(values, pixel);
+        const double bound = 0x1p-24 * sum * static_cast<double>(values.size() / pixels + 1);
+        for (int channel = 0; channel < 3; ++channel)
+            if (std::abs(sums[pixel][channel] - sum) > bound) return false;
+    }
+    return true;
+}
+
+template <class Executor>
+void expect_all_there(Executor& executor, const std::vector<float>& values)
+{
+    const auto count = static_cast<std::uint32_t>(values.size());
+    std::vector<gpu::Rgb> sums(pixels, gpu::Rgb(0.0f));
+    executor(count, AddSplats{values, {sums, {}}});
+    RC_ASSERT(hold(sums, values));
+
+    std::vector<gpu::ExactSum> exact(3 * pixels);
+    std::vector<gpu::ExactSum> in_order(3 * pixels);
+    executor(count, AddSplats{values, {{}, exact}});
+    gpu::SerialExecutor{}(count, AddSplats{values, {{}, in_order}});
+    for (std::size_t i = 0; i < exact.size(); ++i) RC_ASSERT(exact[i].value() == in_order[i].value());
+}
+
+RC_GTEST_PROP(Splats, AreAllThereInEveryOrderOfAtomicSteps, ())
+{
+    std::mt19937 chooser(*rc::gen::arbitrary<std::uint32_t>());
+    cuda_test::InterleavedExecutor executor(
+        4, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(chooser() % ready); });
+    expect_all_there(executor, some_values(1, *rc::gen::inRange<std::size_t>(0, 40)));
+}
+
+RC_GTEST_PROP(Splats, AreAllThereFromRealThreads, ())
+{
+    gpu::ThreadedExecutor executor(*rc::gen::inRange(1u, 5u), 1);
+    expect_all_there(executor, some_values(2, *rc::gen::inRange<std::size_t>(0, 3000)));
+}
+
+// Or the silence of the test above would be worth nothing.
+TEST(Splats, ThatAreTornAreFound)
+{
+    const std::vector<float> values = some_values(3, 32);
+    int found = 0;
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        std::mt19937 chooser(seed);
+        cuda_test::InterleavedExecutor executor(
+            4, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(chooser() % ready); });
+        std::vector<gpu::Rgb> sums(pixels, gpu::Rgb(0.0f));
+        executor(32, AddTornSplats{values, sums});
+        if (!hold(sums, values)) ++found;
+    }
+    EXPECT_EQ(found, 20);
+}
+
+} // namespace

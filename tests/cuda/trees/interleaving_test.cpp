@@ -1,0 +1,127 @@
+// The refit under every order in which threads can take their atomic steps.
+
+#include "cuda/trees/lbvh.h"
+#include "tests/cuda/parallel/interleaved_executor.h"
+#include "tests/cuda/trees/build_on.h"
+#include "tests/cuda/trees/refit_arrivals.h"
+#include "tests/ref/trees/boxes.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <bit>
+#include <random>
+
+namespace {
+
+using cuda_test::EveryChoice;
+using cuda_test::InterleavedExecutor;
+using trees_test::Random;
+using Words = std::array<std::uint32_t, 16>; // of a node
+
+/// A tree that was built by the serial executor, and its nodes with all boxes spoilt.
+struct Unfitted {
+    gpu::HostMemory memory;
+    std::vector<gpu::Box> boxes;
+    gpu::Lbvh<std::uint32_t> tree;
+    std::vector<gpu::Node> nodes;
+
+    explicit Unfitted(std::vector<gpu::Box> these)
+        : boxes(std::move(these)),
+          tree(memory, gpu::SerialExecutor{}, static_cast<std::uint32_t>(boxes.size()))
+    {
+        gpu::SerialExecutor serial;
+        tree.build(serial, boxes);
+    }
+    /// Fits the boxes on `executor`; whether all are as the serial executor made them.
+    template <std::uint32_t (*arrive_at)(std::uint32_t&)>
+    bool refits(InterleavedExecutor& executor)
+    {
+        nodes.assign(tree.nodes().begin(), tree.nodes().end());
+        for (gpu::Node& node : nodes) node.bounds[0] = node.bounds[1] = {gpu::Vec3(77), gpu::Vec3(-77)};
+        executor(tree.primitive_count(),
+                 gpu::RefitBounds<arrive_at>{boxes, tree.primitives(), tree.leaf_links(), nodes});
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            if (std::bit_cast<Words>(nodes[i]) != std::bit_cast<Words>(tree.nodes()[i])) return false;
+        return true;
+    }
+};
+
+/// Boxes whose tree is as balanced as can be, or a chain.
+std::vector<gpu::Box> in_a_row(std::uint32_t n, bool chain)
+{
+    std::vector<gpu::Box> boxes;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const auto at = chain ? std::ldexp(1.0f, static_cast<int>(i)) : static_cast<float>(i);
+        boxes.push_back({gpu::Vec3(at), gpu::Vec3(at + 0.5f)});
+    }
+    return boxes;
+}
+
+TEST(RefitInEveryInterleaving, GivesTheSameBoxes)
+{
+    for (std::uint32_t n = 1; n <= 4; ++n)
+        for (const bool chain : {false, true}) {
+            if (chain && n < 4) continue; // of fewer there is only one shape, and its mirror image
+            Unfitted unfitted(in_a_row(n, chain));
+            EveryChoice choices;
+            InterleavedExecutor executor(n, std::ref(choices));
+            int rounds = 0;
+            do {
+                ASSERT_TRUE(unfitted.refits<gpu::arrive>(executor)) << n << " leaves, round " << rounds;
+                ++rounds;
+            } while (choices.next_round());
+            RecordProperty("interleavings_of_" + std::to_string(n) + (chain ? "_in_a_chain" : ""),
+                           rounds);
+            // The orders of the pieces between atomic steps. A leaf has one piece more than arrivals.
+            // Two leaves: 4! / (2! 2!) = 6. Four in balance: one of each pair goes on to the root, which
+            // are 4 ways, and 10! / (2! 3! 2! 3!) = 25200 orders of the pieces, of which 0.3 in each
+            // pair have the right one arrive last: 4 * 25200 * 0.3^2 = 9072. (0.3: 3 of the 10 orders of
+            // aabbb.)
+            EXPECT_EQ(rounds, (std::array{0, 1, 6, 126, chain ? 5670 : 9072}[n]));
+        }
+}
+
+TEST(RefitInEveryInterleaving, FindsATornCounter)
+{
+    Unfitted unfitted(in_a_row(2, false));
+    EveryChoice choices;
+    InterleavedExecutor executor(2, std::ref(choices));
+    int rounds = 0;
+    int found = 0;
+    do {
+        // Two leaves under one node: both may think themselves the first, and nobody resets the count.
+        found += unfitted.refits<cuda_test::arrive_torn>(executor) ? 0 : 1;
+        ++rounds;
+    } while (choices.next_round());
+    EXPECT_GT(found, 0);
+    EXPECT_LT(found, rounds);
+}
+
+/// An executor of up to 32 threads that lets `seed` decide.
+template <std::uint32_t (*arrive_at)(std::uint32_t&)>
+bool refits_by_chance(std::size_t n, std::uint64_t seed)
+{
+    Random random(seed);
+    Unfitted unfitted(cuda_test::rounded(trees_test::boxes(trees_test::Kind::uniform, n, random)));
+    std::mt19937_64 bits(seed);
+    InterleavedExecutor executor(
+        32, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(bits() % ready); });
+    return unfitted.refits<arrive_at>(executor);
+}
+
+RC_GTEST_PROP(RefitInRandomInterleavings, GivesTheSameBoxes, ())
+{
+    const std::size_t n = *rc::gen::inRange<std::size_t>(1, 200);
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    RC_ASSERT(refits_by_chance<gpu::arrive>(n, seed));
+}
+
+TEST(RefitInRandomInterleavings, FindsATornCounterEveryTime)
+{
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+        EXPECT_FALSE(refits_by_chance<cuda_test::arrive_torn>(32, seed)) << seed;
+}
+
+} // namespace

@@ -1,0 +1,47 @@
+// Refits a tree of ten leaves on threads, over and over. `relaxed_refit right` arrives as it should;
+// `relaxed_refit relaxed` without the order that makes boxes visible. ThreadSanitizer must accept the
+// one and report the other (thread_sanitizer_test.cpp). Ends with status 0 if ThreadSanitizer does not
+// object.
+
+#include "cuda/parallel/threaded_executor.h"
+#include "cuda/trees/lbvh.h"
+#include "tests/cuda/trees/refit_arrivals.h"
+
+#include <cstdio>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+template <std::uint32_t (*arrive_at)(std::uint32_t&)>
+void refit_often()
+{
+    constexpr std::uint32_t n = 10;
+    std::vector<gpu::Box> boxes;
+    for (std::uint32_t i = 0; i < n; ++i)
+        boxes.push_back({gpu::Vec3(static_cast<float>(i)), gpu::Vec3(static_cast<float>(i + 1))});
+    gpu::HostMemory memory;
+    gpu::SerialExecutor serial;
+    gpu::ThreadedExecutor threaded(4, 1);
+    gpu::Lbvh<std::uint32_t> tree(memory, serial, n);
+    tree.build(serial, boxes);
+    for (int i = 0; i < 100; ++i)
+        threaded(n,
+                 gpu::RefitBounds<arrive_at>{boxes, tree.primitives(), tree.leaf_links(), tree.nodes()});
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const std::string_view how = argc == 2 ? argv[1] : "";
+    if (how == "right") {
+        refit_often<gpu::arrive>();
+    } else if (how == "relaxed") {
+        refit_often<cuda_test::arrive_relaxed>();
+    } else {
+        std::fputs("usage: relaxed_refit right|relaxed\n", stderr);
+        return 2;
+    }
+    return 0;
+}

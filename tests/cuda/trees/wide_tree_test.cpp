@@ -1,0 +1,199 @@
+// From narrow trees to wide ones.
+
+#include "cuda/trees/wide_tree.h"
+
+#include "tests/cuda/parallel/interleaved_executor.h"
+#include "tests/cuda/trees/triangles.h"
+#include "tests/ref/trees/boxes.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <cstring>
+#include <random>
+
+namespace {
+
+using gpu::Box;
+using gpu::Node;
+using gpu::Triangle;
+using gpu::TriangleGroup;
+using gpu::Vec3;
+using gpu::WideNode;
+using gpu::WideTree;
+using trees_test::Random;
+
+/// A narrow tree over random triangles, some of them coincident.
+struct Narrow {
+    Narrow(std::size_t n, Random& random) : tree(memory, executor, static_cast<std::uint32_t>(n))
+    {
+        for (std::size_t i = 0; i < n; ++i) {
+            const ref::Vec3 at = random.in_cube();
+            const double size = random.magnitude(-3, 0);
+            Triangle triangle{};
+            for (Vec3& vertex : triangle.vertices) vertex = Vec3(at + size * random.in_cube());
+            triangles.push_back(i > 0 && random.below(8) == 0 ? triangles[random.below(i)] : triangle);
+        }
+        boxes.resize(n);
+        executor(static_cast<std::uint32_t>(n), gpu::BoundTriangles{triangles, boxes});
+        tree.build(executor, boxes);
+    }
+    template <gpu::Executor E>
+    WideTree widened(E& by)
+    {
+        return {memory, by, std::as_const(tree).nodes(), tree.primitives(), triangles};
+    }
+    gpu::HostMemory memory;
+    gpu::SerialExecutor executor;
+    std::vector<Triangle> triangles;
+    std::vector<Box> boxes;
+    gpu::Lbvh<std::uint64_t> tree;
+};
+
+/// Counts how often each primitive is in a group, and how many nodes and groups there are.
+struct Census {
+    std::vector<int> seen;
+    std::size_t nodes = 0;
+    std::size_t groups = 0;
+};
+
+/// The box around all below `child`, of which every part must be as the wide nodes say.
+Box check_below(const gpu::WideTreeView& tree, const Narrow& narrow, std::uint32_t child, Census& census,
+                std::uint32_t& primitives)
+{
+    Box all = gpu::empty_box();
+    if (gpu::is_leaf(child)) {
+        ++census.groups;
+        const TriangleGroup& group = tree.groups[child & ~gpu::leaf_bit];
+        for (int lane = 0; lane < 4; ++lane) {
+            const std::uint32_t primitive = group.primitives[lane];
+            const Triangle triangle = group.triangle(lane);
+            if (primitive == gpu::no_primitive) {
+                RC_ASSERT(triangle.vertices[0].x != triangle.vertices[0].x); // NaN: never hit
+                continue;
+            }
+            ++primitives;
+            ++census.seen[primitive];
+            RC_ASSERT(std::memcmp(&triangle, &narrow.triangles[primitive], sizeof triangle) == 0);
+            all = unite(all, narrow.boxes[primitive]);
+        }
+        return all;
+    }
+    ++census.nodes;
+    const WideNode& node = tree.nodes[child];
+    std::uint32_t below = 0;
+    for (int c = 0; c < 4; ++c) {
+        if (node.children[c] == gpu::no_node) {
+            RC_ASSERT(node.planes[0][c] > node.planes[3][c]); // no ray enters
+            continue;
+        }
+        const Box box = check_below(tree, narrow, node.children[c], census, below);
+        for (int axis = 0; axis < 3; ++axis) {
+            RC_ASSERT(node.planes[axis][c] == box.lower[axis]);
+            RC_ASSERT(node.planes[3 + axis][c] == box.upper[axis]);
+        }
+        all = unite(all, box);
+    }
+    RC_ASSERT(below > gpu::most_in_group); // or it would be a group
+    primitives += below;
+    return all;
+}
+
+bool same_nodes(std::span<const WideNode> a, std::span<const WideNode> b)
+{
+    if (a.size() != b.size()) return false;
+    for (std::size_t i = 0; i < a.size(); ++i) // what fills up the line after them is anything
+        if (std::memcmp(a[i].planes, b[i].planes, sizeof a[i].planes) != 0 ||
+            std::memcmp(a[i].children, b[i].children, sizeof a[i].children) != 0)
+            return false;
+    return true;
+}
+
+bool same_groups(std::span<const TriangleGroup> a, std::span<const TriangleGroup> b)
+{
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
+RC_GTEST_PROP(WideTree, HoldsEveryPrimitiveOnceInBoxesThatFit, ())
+{
+    Random random(*rc::gen::arbitrary<std::uint64_t>());
+    Narrow narrow(*rc::gen::inRange<std::size_t>(0, 300), random);
+    const WideTree tree = narrow.widened(narrow.executor);
+    Census census{std::vector<int>(narrow.triangles.size())};
+    std::uint32_t primitives = 0;
+    if (!tree.view().nodes.empty())
+        check_below(tree.view(), narrow, 0, census, primitives);
+    else if (!tree.view().groups.empty())
+        check_below(tree.view(), narrow, gpu::leaf_bit, census, primitives);
+    RC_ASSERT(primitives == narrow.triangles.size());
+    for (const int times : census.seen) RC_ASSERT(times == 1);
+    RC_ASSERT(census.nodes == tree.view().nodes.size()); // and none that is not needed
+    RC_ASSERT(census.groups == tree.view().groups.size());
+}
+
+RC_GTEST_PROP(WideTree, IsTheSameForEveryExecutor, ())
+{
+    Random random(*rc::gen::arbitrary<std::uint64_t>());
+    Narrow narrow(*rc::gen::inRange<std::size_t>(0, 100), random);
+    const WideTree serial = narrow.widened(narrow.executor);
+    gpu::ThreadedExecutor threads(3, 1);
+    const WideTree threaded = narrow.widened(threads);
+    std::mt19937_64 schedule(random.bits());
+    cuda_test::InterleavedExecutor adversary(
+        8, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(schedule() % ready); });
+    const WideTree interleaved = narrow.widened(adversary);
+    for (const WideTree* tree : {&threaded, &interleaved}) {
+        RC_ASSERT(same_nodes(tree->view().nodes, serial.view().nodes));
+        RC_ASSERT(same_groups(tree->view().groups, serial.view().groups));
+    }
+}
+
+/// Appends a balanced tree over `count` new leaves with equal boxes; returns its name from above.
+std::uint32_t balanced(std::vector<Node>& nodes, std::uint32_t& leaves, std::uint32_t count,
+                       const Box& box)
+{
+    if (count == 1) return leaves++ | gpu::leaf_bit;
+    const auto at = static_cast<std::uint32_t>(nodes.size());
+    nodes.push_back({{box, box}, {0, 0}, gpu::no_node, 0});
+    nodes[at].children[0] = balanced(nodes, leaves, count / 2, box);
+    nodes[at].children[1] = balanced(nodes, leaves, count - count / 2, box);
+    return at;
+}
+
+// The worst that can happen to the stack: at every level of the deepest tree the larger child is opened
+// twice, and the ray goes down into the smaller one, with three others waiting.
+TEST(WideTree, TheDeepestOneFitsTheStack)
+{
+    std::vector<Node> nodes;
+    std::uint32_t leaves = 0;
+    const Box larger{Vec3(-2), Vec3(2)};
+    const Box smaller{Vec3(-1), Vec3(1)};
+    for (int level = 0; level < gpu::deepest_tree; ++level) {
+        const auto at = static_cast<std::uint32_t>(nodes.size());
+        nodes.push_back({{smaller, larger}, {0, 0}, gpu::no_node, 0});
+        nodes[at].children[1] = balanced(nodes, leaves, 16, larger);
+        nodes[at].children[0] = static_cast<std::uint32_t>(nodes.size());
+    }
+    balanced(nodes, leaves, 16, smaller); // where the last level expects it
+    std::vector<std::uint32_t> primitives(leaves);
+    for (std::uint32_t i = 0; i < leaves; ++i) primitives[i] = i;
+    Random random(1);
+    std::vector<Triangle> triangles(leaves);
+    for (Triangle& triangle : triangles)
+        for (Vec3& vertex : triangle.vertices) vertex = Vec3(random.in_cube());
+    gpu::HostMemory memory;
+    gpu::SerialExecutor executor;
+    const WideTree tree(memory, executor, nodes, primitives, triangles);
+    for (int i = 0; i < 100; ++i) {
+        const gpu::Ray ray{Vec3(0.01 * random.in_cube()), std::numeric_limits<float>::infinity(),
+                           Vec3(random.direction())};
+        const gpu::Surfaces<false> surfaces{tree.view(), {}, leaves};
+        const gpu::Hit hit = closest_hit(surfaces, ray);
+        const gpu::Hit expected = cuda_test::linear_search(triangles, ray);
+        EXPECT_EQ(hit.primitive, expected.primitive);
+        EXPECT_EQ(hit.t, expected.t);
+    }
+}
+
+} // namespace

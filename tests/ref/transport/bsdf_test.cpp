@@ -1,0 +1,198 @@
+#include "ref/transport/bsdf.h"
+#include "tests/ref/transport/chi_squared.h"
+#include "tests/ref/transport/generators.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace {
+
+using ref::evaluate_bsdf;
+using ref::pdf_solid_angle_bsdf;
+using ref::Rgb;
+using ref::sample_bsdf;
+using ref::survival_probability;
+using ref::Transport;
+using ref::Uniforms;
+using ref::Vec3;
+using transport_test::any_direction;
+using transport_test::any_unit;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+double refracted(double cos_i, double eta_i, double eta_t, double& cos_t)
+{
+    return ref::fresnel(cos_i, eta_i, eta_t, cos_t);
+}
+
+TEST(Bsdf, LambertianSamplesFollowTheirDensityOnBothSides)
+{
+    const scenes::Material grey = scenes::Lambertian{Rgb(0.5)};
+    for (const double side : {1.0, -1.0}) {
+        const Vec3 wo = glm::normalize(Vec3(0.3, 0.4, 0.2 * side));
+        const auto sample = [&](const Uniforms& u) {
+            return sample_bsdf(grey, wo, u, Transport::radiance).wi_local;
+        };
+        const auto density = [&](const Vec3& wi) { return pdf_solid_angle_bsdf(grey, wo, wi); };
+        transport_test::expect_directions_follow_density(sample, density, transport_test::coarse, 8);
+        transport_test::expect_directions_follow_density(sample, density, transport_test::fine, 4);
+    }
+}
+
+RC_GTEST_PROP(Bsdf, LambertianIsReciprocalAndItsDensitiesAgreeWithTheSample, ())
+{
+    const scenes::Material material = scenes::Lambertian{Rgb(0.2, 0.5, 0.9)};
+    const Vec3 wo = *any_direction();
+    const auto s = sample_bsdf(material, wo, {*any_unit(), *any_unit(), 0.5, 0.5}, Transport::radiance);
+    RC_ASSERT(evaluate_bsdf(material, wo, s.wi_local) == evaluate_bsdf(material, s.wi_local, wo));
+    RC_ASSERT(s.pdf_fwd == pdf_solid_angle_bsdf(material, wo, s.wi_local));
+    RC_ASSERT(s.pdf_rev == pdf_solid_angle_bsdf(material, s.wi_local, wo));
+    RC_ASSERT(!s.delta);
+    const Rgb value = evaluate_bsdf(material, wo, s.wi_local) * std::abs(s.wi_local.z) / s.pdf_fwd;
+    for (int i = 0; i < 3; ++i) RC_ASSERT(std::abs(value[i] - s.value[i]) <= 4 * epsilon * s.value[i]);
+}
+
+// Opaque: nothing may pass to the other side.
+RC_GTEST_PROP(Bsdf, LambertianDoesNotTransmit, ())
+{
+    const scenes::Material material = scenes::Lambertian{Rgb(1.0)};
+    const Vec3 wo = *any_direction();
+    const Vec3 wi = *any_direction();
+    RC_PRE(wo.z * wi.z < 0.0);
+    RC_ASSERT(evaluate_bsdf(material, wo, wi) == Rgb(0.0));
+    RC_ASSERT(pdf_solid_angle_bsdf(material, wo, wi) == 0.0);
+}
+
+RC_GTEST_PROP(Bsdf, MirrorReflectsAboutTheNormal, ())
+{
+    const Vec3 wo = *any_direction();
+    const auto s = sample_bsdf(scenes::Material(scenes::Mirror{Rgb(0.7)}), wo, {}, Transport::radiance);
+    RC_ASSERT(s.delta && s.value == Rgb(0.7));
+    RC_ASSERT(s.wi_local == Vec3(-wo.x, -wo.y, wo.z));
+}
+
+TEST(Fresnel, AtNormalIncidenceIsTheTextbookValue)
+{
+    double cos_t = 0.0;
+    EXPECT_NEAR(refracted(1.0, 1.0, 1.5, cos_t), 0.04, 4 * epsilon);
+    EXPECT_EQ(cos_t, 1.0);
+}
+
+// Unpolarised reflectance at Brewster's angle, tan(theta) = n, is half of the perpendicular part alone:
+// ((1 - n^2) / (1 + n^2))^2 / 2.
+TEST(Fresnel, AtBrewstersAngleOnlyThePerpendicularPartIsLeft)
+{
+    const double n = 1.45;
+    double cos_t = 0.0;
+    const double r = (1 - n * n) / (1 + n * n);
+    EXPECT_NEAR(refracted(std::cos(std::atan(n)), 1.0, n, cos_t), r * r / 2, 8 * epsilon);
+}
+
+TEST(Fresnel, BeyondTheCriticalAngleAllIsReflected)
+{
+    const double critical = std::asin(1.0 / 1.45);
+    double cos_t = 0.0;
+    EXPECT_EQ(refracted(std::cos(critical + 1e-6), 1.45, 1.0, cos_t), 1.0);
+    EXPECT_LT(refracted(std::cos(critical - 1e-3), 1.45, 1.0, cos_t), 1.0);
+    EXPECT_NEAR(refracted(1e-9, 1.0, 1.45, cos_t), 1.0, 1e-8); // grazing: 1 - O(cos)
+}
+
+// Reflectance is the same from both sides along one light path: 1 - F is what both ways transmit.
+// Tolerance: both sides are smooth in cos_i except where sqrt(1 - sin^2) loses digits near the critical
+// angle, which cos_t > 1e-3 keeps to a relative error of epsilon / cos_t^2.
+RC_GTEST_PROP(Fresnel, IsTheSameFromBothSides, ())
+{
+    const double cos_i = *any_unit();
+    const double n = 1.0 + *any_unit();
+    double cos_t = 0.0;
+    const double from_outside = refracted(cos_i, 1.0, n, cos_t);
+    RC_PRE(cos_i > 1e-3);
+    double back = 0.0;
+    const double from_inside = refracted(cos_t, n, 1.0, back);
+    RC_ASSERT(std::abs(from_outside - from_inside) < 1e-9);
+    RC_ASSERT(std::abs(back - cos_i) < 1e-9);
+}
+
+// Snell's law, written without reference to the code's way: eta_i sin_i = eta_t sin_t, in one plane, to
+// the other side.
+RC_GTEST_PROP(Glass, RefractsBySnellsLaw, ())
+{
+    const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), 1.45};
+    const Vec3 wo = *any_direction();
+    const auto s = sample_bsdf(glass, wo, {0.5, 0.5, 1.0 - 0x1p-33, 0.5}, Transport::radiance);
+    RC_PRE(wo.z * s.wi_local.z < 0.0); // else total reflection
+    const double eta_i = wo.z > 0.0 ? 1.0 : 1.45;
+    const double eta_t = wo.z > 0.0 ? 1.45 : 1.0;
+    RC_ASSERT(glm::length(eta_i * glm::dvec2(wo) + eta_t * glm::dvec2(s.wi_local)) < 1e-12);
+    RC_ASSERT(std::abs(glm::length(s.wi_local) - 1.0) < 4 * epsilon);
+}
+
+// A delta lobe's value is its colour, times (eta_i / eta_t)^2 where radiance is refracted: Fresnel's
+// factor and the probability of the lobe cancel.
+RC_GTEST_PROP(Glass, RadianceIsSqueezedAndPowerIsNot, ())
+{
+    const scenes::Material glass = scenes::Glass{Rgb(0.9), Rgb(0.8), 1.5};
+    const Vec3 wo = *any_direction();
+    const Uniforms u = {0.5, 0.5, *any_unit(), 0.5};
+    const auto radiance = sample_bsdf(glass, wo, u, Transport::radiance);
+    const auto power = sample_bsdf(glass, wo, u, Transport::power);
+    RC_ASSERT(radiance.wi_local == power.wi_local && radiance.pdf_fwd == power.pdf_fwd);
+    if (wo.z * radiance.wi_local.z > 0.0) {
+        RC_ASSERT(radiance.value == Rgb(0.9) && power.value == Rgb(0.9));
+    } else {
+        const double squeeze = wo.z > 0.0 ? 1.0 / 2.25 : 2.25;
+        RC_ASSERT(power.value == Rgb(0.8));
+        RC_ASSERT(std::abs(radiance.value.x - 0.8 * squeeze) < 8 * epsilon);
+    }
+}
+
+// In through one face and out through a parallel one: radiance is what it was, and so is the direction.
+RC_GTEST_PROP(Glass, ARoundTripInAndOutIsLossless, ())
+{
+    const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), 1.45};
+    const Uniforms through = {0.5, 0.5, 1.0 - 0x1p-33, 0.5};
+    const Vec3 wo = *any_direction();
+    RC_PRE(wo.z > 1e-4); // close to grazing the direction's last digits decide
+    const auto in = sample_bsdf(glass, wo, through, Transport::radiance);
+    RC_PRE(in.wi_local.z < 0.0);
+    // At the far face the outside is on the other side: mirror z, there and back.
+    const Vec3 mirrored(-in.wi_local.x, -in.wi_local.y, in.wi_local.z);
+    const auto out = sample_bsdf(glass, mirrored, through, Transport::radiance);
+    const Vec3 leaving(out.wi_local.x, out.wi_local.y, -out.wi_local.z);
+    const Rgb total = in.value * out.value;
+    RC_ASSERT(std::abs(total.x - 1.0) < 4 * epsilon);
+    RC_ASSERT(glm::length(leaving + wo) < 1e-10);
+    RC_ASSERT(std::abs(in.pdf_fwd - out.pdf_fwd) < 1e-10 && in.pdf_fwd == in.pdf_rev);
+}
+
+// Reflected and transmitted fractions add up to 1: the frequencies of the lobes against Fresnel's
+// equations, and a total of exactly what came in for power.
+TEST(Glass, ConservesPower)
+{
+    const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), 1.45};
+    for (const double z : {0.9, 0.3, -0.9, -0.3}) {
+        const Vec3 wo(std::sqrt(1.0 - z * z), 0.0, z);
+        double cos_t = 0.0;
+        const double reflected = refracted(std::abs(z), z > 0 ? 1.0 : 1.45, z > 0 ? 1.45 : 1.0, cos_t);
+        constexpr int count = 100'000;
+        int reflections = 0;
+        for (int i = 0; i < count; ++i) {
+            const auto s = sample_bsdf(glass, wo, {0.5, 0.5, (i + 0.5) / count, 0.5}, Transport::power);
+            ASSERT_EQ(s.value, Rgb(1.0));
+            if (s.wi_local.z * z > 0.0) ++reflections;
+        }
+        EXPECT_NEAR(reflections / static_cast<double>(count), reflected, 1.0 / count); // stratified u
+    }
+}
+
+TEST(Roulette, StartsAfterTheFourthBounceAndNeverKeepsAWalkForCertain)
+{
+    const scenes::Material white = scenes::Mirror{Rgb(1.0)};
+    const scenes::Material red = scenes::Lambertian{Rgb(0.6, 0.1, 0.1)};
+    for (int bounce = 1; bounce <= 4; ++bounce) EXPECT_EQ(survival_probability(red, bounce, true), 1.0);
+    EXPECT_EQ(survival_probability(red, 5, true), 0.6);
+    EXPECT_LT(survival_probability(white, 5, true), 1.0);
+    EXPECT_EQ(survival_probability(red, 5, false), 1.0);
+}
+
+} // namespace

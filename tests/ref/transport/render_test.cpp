@@ -1,0 +1,229 @@
+#include "ref/transport/bdpt.h"
+#include "ref/transport/path_tracer.h"
+#include "ref/transport/render.h"
+#include "tests/ref/transport/changed_scene.h"
+#include "tests/ref/transport/scene_files.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <stdexcept>
+
+namespace {
+
+using ref::Contribution;
+using ref::Rgb;
+
+constexpr int width = 37; // no multiple of a tile
+constexpr int height = 21;
+
+const scenes::Scene& scene()
+{
+    static const scenes::Scene loaded = transport_test::our_scene("cornell_glass");
+    return loaded;
+}
+
+images::Film rendered(ref::Integrator integrator, std::uint64_t batches, unsigned threads,
+                      images::Film film = {width, height})
+{
+    const ref::World world(scene(), width, height);
+    EXPECT_TRUE(ref::render(world, integrator, {{.seed = 11}, batches, 2, threads}, film));
+    return film;
+}
+
+/// Splats on pixels far from its own, with sums that depend on their order: what a light walk does.
+void splash(const ref::World& world, const ref::PathOptions& /*options*/, const ref::SampleId& id,
+            std::vector<Contribution>& out)
+{
+    const auto u = ref::uniforms(id, ref::Event::camera);
+    const auto pixels = static_cast<double>(world.camera.width() * world.camera.height());
+    for (const double v : u)
+        out.push_back({static_cast<std::uint32_t>(v * pixels), 2, 1, Rgb(v * 1e-8, 1.0 / v, v), u[0]});
+    out.push_back({id.pixel, 0, 2, Rgb(u[1]), 1.0});
+}
+
+TEST(Render, DoesNotDependOnTheNumberOfThreads)
+{
+    for (const auto integrator : {ref::trace_path, splash}) {
+        const images::Film one = rendered(integrator, 3, 1);
+        EXPECT_EQ(one, rendered(integrator, 3, 2));
+        EXPECT_EQ(one, rendered(integrator, 3, 7));
+    }
+}
+
+// Every triangle of the room twice, the copies in red and in reverse order: each ray that finds a wall
+// has two nearest hits, and the picture shows which one counts.
+TEST(Render, DoesNotDependOnTheBuilderOfTheTreeEvenWhereTwoHitsAreEquallyFar)
+{
+    scenes::Scene doubled = scene();
+    const auto red = static_cast<std::uint32_t>(doubled.materials.size());
+    doubled.materials.emplace_back(scenes::Lambertian{Rgb(0.9, 0.1, 0.1)});
+    for (std::size_t i = scene().triangles.size(); i-- > 0;)
+        doubled.triangles.push_back({scene().triangles[i].vertices, red});
+    const auto rendered_by = [&](ref::Builder builder, ref::Integrator integrator) {
+        const ref::World world(doubled, width, height, builder);
+        images::Film film(width, height);
+        EXPECT_TRUE(ref::render(world, integrator, {{.seed = 11}, 2, 2, 2}, film));
+        return film;
+    };
+    for (const auto integrator : {ref::trace_path, ref::trace_bidirectionally}) {
+        const images::Film expected = rendered_by(ref::Builder::sah_leaf, integrator);
+        for (const auto builder : {ref::Builder::morton30, ref::Builder::morton63, ref::Builder::sah})
+            EXPECT_EQ(expected, rendered_by(builder, integrator));
+    }
+}
+
+TEST(Render, GoesOnFromAnEarlierFilmAsIfNeverInterrupted)
+{
+    for (const auto integrator : {ref::trace_path, splash})
+        EXPECT_EQ(rendered(integrator, 7, 2), rendered(integrator, 7, 2, rendered(integrator, 3, 2)));
+}
+
+TEST(Render, StopsSoonWithWholeBatchesOnly)
+{
+    const images::Film whole = rendered(splash, 5, 1);
+    const ref::World world(scene(), width, height);
+    for (const int limit : {1, 7, 20}) {
+        images::Film film(width, height);
+        std::atomic<int> asked = 0;
+        const ref::Monitor monitor{{}, [&] { return ++asked > limit; }};
+        EXPECT_FALSE(ref::render(world, splash, {{.seed = 11}, 5, 2, 2}, film, monitor));
+        EXPECT_LT(film.batches(), 5u);
+        EXPECT_LE(asked, limit + 2); // each of two threads asks once more at most
+        EXPECT_EQ(rendered(splash, 5, 2, film), whole);
+    }
+}
+
+TEST(Render, SaysHowFarItIs)
+{
+    const ref::World world(scene(), width, height);
+    images::Film film(width, height);
+    double last = 0.0;
+    EXPECT_TRUE(ref::render(world, splash, {{}, 3, 2, 2}, film,
+                            {[&](double done) {
+                                 EXPECT_GT(done, last);
+                                 last = done;
+                             },
+                             {}}));
+    EXPECT_EQ(last, 3.0);
+}
+
+TEST(Render, ShowsTheFilmAfterEachBatch)
+{
+    const ref::World world(scene(), width, height);
+    images::Film film(width, height);
+    std::vector<images::Film> seen;
+    ref::Monitor monitor;
+    monitor.kept = [&](const images::Film& so_far) { seen.push_back(so_far); };
+    EXPECT_TRUE(ref::render(world, splash, {{.seed = 11}, 3, 2, 2}, film, monitor));
+    ASSERT_EQ(seen.size(), 3u);
+    EXPECT_EQ(seen[0], rendered(splash, 1, 1));
+    EXPECT_EQ(seen[2], film);
+}
+
+// What one walk spreads over the film is shared by the samples per pixel, once.
+TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel)
+{
+    const auto one_each = [](const ref::World& /*world*/, const ref::PathOptions& /*options*/,
+                             const ref::SampleId& id, std::vector<Contribution>& out) {
+        out.push_back({(id.pixel + 100) % (width * height), 2, 1, Rgb(1.0, 2.0, 4.0), 0.5});
+    };
+    const images::Film film = rendered(one_each, 2, 2);
+    for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(0.5, 1.0, 2.0));
+}
+
+/// One finite contribution; and for every third pixel one that is not, to its own pixel or as a splat.
+void sometimes_not_finite(const ref::World& /*world*/, const ref::PathOptions& /*options*/,
+                          const ref::SampleId& id, std::vector<Contribution>& out)
+{
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    out.push_back({id.pixel, 0, 2, Rgb(1.0), 1.0});
+    if (id.pixel % 3 != 1) return;
+    if (id.pixel % 2 == 0)
+        out.push_back({id.pixel, 1, 2, Rgb(1.0, infinity, 1.0), 0.5});
+    else
+        out.push_back({id.pixel, 2, 1, Rgb(1.0), nan});
+}
+
+TEST(Render, LeavesOutWhatIsNotFiniteAndSaysHowMuch)
+{
+    const ref::World world(scene(), width, height);
+    for (const unsigned threads : {1u, 4u}) {
+        images::Film film(width, height);
+        ref::StrategyLayers layers(width, height, 3, false);
+        images::Dropped dropped;
+        int reports = 0;
+        ref::Monitor monitor;
+        monitor.dropped = [&](const images::Dropped& of_batch) {
+            dropped += of_batch;
+            ++reports;
+        };
+        ASSERT_TRUE(ref::render(world, sometimes_not_finite, {{.seed = 1}, 3, 2, threads}, film, monitor,
+                                &layers));
+        for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(1.0));
+        EXPECT_EQ(layers.means().size(), 1u); // (0, 2) alone: the others found nothing that is finite
+        EXPECT_EQ(reports, 3);
+        EXPECT_EQ(dropped.count, 3u * 2u * (width * height / 3));
+        EXPECT_EQ(
+            images::describe(dropped, width).substr(5),
+            "contribution(s) are not finite and were left out, the first at pixel (1, 0) by strategy "
+            "s2t1")
+            << images::describe(dropped, width);
+    }
+}
+
+TEST(Render, NeverLeavesOutWhatIsNotFiniteWithoutAWord)
+{
+    const ref::World world(scene(), width, height);
+    EXPECT_THROW(ref::render_batch(world, sometimes_not_finite, {{.seed = 1}, 1, 2, 2}, 0),
+                 std::runtime_error);
+}
+
+TEST(Render, RefusesAWorldOfWhichProductsOfLengthsOverflow)
+{
+    for (const double factor : {1e110, 1e-110})
+        EXPECT_THROW(ref::World(transport_test::scaled(scene(), factor), width, height),
+                     std::invalid_argument);
+    EXPECT_NO_THROW(ref::World(transport_test::scaled(scene(), 1e90), width, height));
+}
+
+TEST(Render, PassesOnWhatAnIntegratorThrows)
+{
+    const auto broken = [](const ref::World& /*world*/, const ref::PathOptions& /*options*/,
+                           const ref::SampleId& /*id*/,
+                           std::vector<Contribution>& /*out*/) { throw std::runtime_error("broken"); };
+    const ref::World world(scene(), width, height);
+    images::Film film(width, height);
+    EXPECT_THROW(ref::render(world, broken, {{}, 3, 2, 2}, film), std::runtime_error);
+    EXPECT_EQ(film.batches(), 0u);
+}
+
+TEST(Render, RefusesAFilmOfAnotherSize)
+{
+    const ref::World world(scene(), width, height);
+    images::Film film(height, width);
+    EXPECT_THROW(ref::render(world, splash, {}, film), std::invalid_argument);
+}
+
+// Pixels stand alone: a larger number of samples, another pixel or another order cannot change what a
+// given sample of a given pixel contributes.
+RC_GTEST_PROP(Render, ASampleCanBeComputedAlone, (std::uint64_t seed))
+{
+    const ref::World world(scene(), width, height);
+    const auto pixel = *rc::gen::inRange(0u, static_cast<std::uint32_t>(width * height));
+    const auto sample = *rc::gen::inRange(0u, 1000u);
+    std::vector<Contribution> a;
+    std::vector<Contribution> b;
+    ref::trace_path(world, {.seed = seed}, {seed, pixel, sample}, a);
+    ref::trace_path(world, {.seed = seed}, {seed, (pixel + 1) % (width * height), sample}, b);
+    b.clear();
+    ref::trace_path(world, {.seed = seed}, {seed, pixel, sample}, b);
+    RC_ASSERT(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        RC_ASSERT(a[i].value == b[i].value && a[i].weight == b[i].weight);
+}
+
+} // namespace

@@ -1,0 +1,36 @@
+#pragma once
+
+// A room in which no two surfaces touch: all light of every length is there, and no connection is large.
+
+#include "scenes/scene.h"
+
+#include <glm/geometric.hpp>
+
+namespace transport_test {
+
+/// Inside a matte sphere of radius 1 hang a matte ball and a light: a triangle that shines downwards, or
+/// a point. Nothing is a mirror, so every strategy makes every path that its end allows. Between two
+/// points of the wall cos cos' / d^2 is 1/4 wherever they are, other pairs of surfaces are at least 0.2
+/// apart: connections have a bounded variance, as they have not in a room with corners.
+inline scenes::Scene rounded_room(bool lamp)
+{
+    using scenes::Rgb;
+    using scenes::Vec3;
+    scenes::Scene scene;
+    scene.materials = {scenes::Lambertian{Rgb(0.7, 0.8, 0.5)}, scenes::Lambertian{Rgb(0.8, 0.6, 0.4)},
+                       scenes::Emission{Rgb(5.0, 4.0, 3.0)}};
+    scene.material_names = {"wall", "ball", "lamp"};
+    scene.spheres = {{Vec3(0.0), 1.0, 0}, {Vec3(0.3, 0.35, -0.3), 0.25, 1}};
+    if (lamp)
+        scene.triangles = {{{Vec3(-0.5, 0.0, 0.5), Vec3(0.0, 0.5, 0.4), Vec3(0.2, -0.3, 0.5)}, 2}};
+    else
+        scene.point_lights = {{Vec3(-0.2, 0.1, 0.3), Rgb(3.0, 2.0, 1.0)}};
+    const Vec3 backward = glm::normalize(Vec3(0.2, -0.9, 0.15));
+    const Vec3 right = glm::normalize(glm::cross(Vec3(0.05, 0.0, 1.0), backward));
+    scene.camera =
+        scenes::Camera{Vec3(0.1, -0.6, 0.1),        right, glm::cross(backward, right), backward,
+                       scenes::FovAxis::horizontal, 1.9};
+    return scene;
+}
+
+} // namespace transport_test

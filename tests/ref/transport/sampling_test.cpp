@@ -1,0 +1,94 @@
+#include "ref/transport/sampling.h"
+#include "tests/ref/transport/chi_squared.h"
+#include "tests/ref/transport/generators.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace {
+
+using ref::Uniforms;
+using ref::Vec3;
+
+double cosine_density(const glm::dvec3& w)
+{
+    return ref::pdf_solid_angle_cosine_hemisphere(w);
+}
+
+TEST(Sampling, CosineHemisphereFollowsItsDensity)
+{
+    const auto sample = [](const Uniforms& u) { return ref::sample_cosine_hemisphere(u[0], u[1]); };
+    transport_test::expect_directions_follow_density(sample, cosine_density, transport_test::coarse, 8);
+    transport_test::expect_directions_follow_density(sample, cosine_density, transport_test::fine, 4);
+}
+
+TEST(Sampling, SphereFollowsItsDensity)
+{
+    const auto sample = [](const Uniforms& u) { return ref::sample_sphere(u[0], u[1]); };
+    const auto density = [](const glm::dvec3&) { return ref::pdf_solid_angle_sphere; };
+    transport_test::expect_directions_follow_density(sample, density, transport_test::coarse, 1);
+    transport_test::expect_directions_follow_density(sample, density, transport_test::fine, 1);
+}
+
+// The triangle is half of the unit square: uniform means density 2 there. The midpoint rule is exact up
+// to the cells on the diagonal, where 64 x 64 points leave an error of at most 1/64 of a cell.
+TEST(Sampling, TriangleFollowsItsDensity)
+{
+    const auto sample = [](const Uniforms& u) {
+        const Vec3 b = ref::sample_triangle(u[0], u[1]);
+        return glm::dvec2(b.y, b.z);
+    };
+    const auto density = [](const glm::dvec2& p) { return p.x + p.y < 1.0 ? 2.0 : 0.0; };
+    transport_test::expect_samples_follow_density(sample, density, transport_test::coarse, 64);
+    transport_test::expect_samples_follow_density(sample, density, transport_test::fine, 64);
+}
+
+TEST(Sampling, DiscFollowsItsDensity)
+{
+    const auto sample = [](const Uniforms& u) { return (ref::sample_disc(u[0], u[1]) + 1.0) / 2.0; };
+    const auto density = [](const glm::dvec2& p) {
+        const glm::dvec2 q = 2.0 * p - 1.0;
+        return q.x * q.x + q.y * q.y < 1.0 ? 4.0 * ref::inverse_pi : 0.0;
+    };
+    transport_test::expect_samples_follow_density(sample, density, transport_test::coarse, 64);
+}
+
+TEST(Sampling, DensitiesIntegrateToOne)
+{
+    const auto integral = [](auto density) {
+        double sum = 0.0;
+        for (const double cell : transport_test::integrate_cells(
+                 [&](const glm::dvec2& p) {
+                     const double z = 2.0 * p.x - 1.0;
+                     return 4.0 * ref::pi * density(Vec3(std::sqrt(1.0 - z * z), 0.0, z));
+                 },
+                 {1, 1}, 1000))
+            sum += cell;
+        return sum;
+    };
+    EXPECT_NEAR(integral(cosine_density), 1.0, 1e-4);
+    EXPECT_NEAR(integral([](const Vec3&) { return ref::pdf_solid_angle_sphere; }), 1.0, 1e-12);
+}
+
+RC_GTEST_PROP(Sampling, FrameIsOrthonormalRightHandedAndUndoesItself, ())
+{
+    const Vec3 z = *transport_test::any_direction();
+    const ref::Frame frame(z);
+    // A few roundings each, magnified where the construction divides by 1 + |z| >= 1.
+    constexpr double tolerance = 16 * std::numeric_limits<double>::epsilon();
+    RC_ASSERT(std::abs(glm::dot(frame.x, frame.y)) < tolerance);
+    RC_ASSERT(glm::length(glm::cross(frame.x, frame.y) - frame.z) < tolerance);
+    RC_ASSERT(std::abs(glm::length(frame.x) - 1.0) < tolerance);
+    const Vec3 v(0.3, -0.5, 0.7);
+    RC_ASSERT(glm::length(frame.to_world(frame.to_local(v)) - v) < tolerance);
+}
+
+TEST(Sampling, FrameHoldsAtBothPoles)
+{
+    for (const double z : {1.0, -1.0}) {
+        const ref::Frame frame(Vec3(0.0, 0.0, z));
+        EXPECT_EQ(glm::cross(frame.x, frame.y), frame.z);
+    }
+}
+
+} // namespace

@@ -1,0 +1,44 @@
+#pragma once
+
+// The scenes in the repository, and those that are there only on some machines.
+
+#include "scenes/read_scene.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace transport_test {
+
+inline const std::filesystem::path our_folder = std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "scenes";
+
+/// A scene of this repository, by its name without ending.
+inline scenes::Scene our_scene(const std::string& name)
+{
+    return scenes::read_scene((our_folder / name).concat(".dae"));
+}
+
+/// The files of all of them, in the order of their names.
+inline std::vector<std::filesystem::path> our_scene_files()
+{
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(our_folder))
+        if (entry.path().extension() == ".dae") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// A file of the shared folder: beside the repository, or where PLUMBLINE_SHARED says. It may be absent:
+/// a test that needs it skips then.
+inline std::filesystem::path shared_file(const std::string& name)
+{
+    const char* folder = std::getenv("PLUMBLINE_SHARED");
+    const std::filesystem::path shared =
+        folder != nullptr ? std::filesystem::path(folder)
+                          : std::filesystem::path(PLUMBLINE_SOURCE_DIR).parent_path() / "shared";
+    return shared / name;
+}
+
+} // namespace transport_test

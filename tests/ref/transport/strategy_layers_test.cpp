@@ -1,0 +1,76 @@
+#include "ref/transport/bdpt.h"
+#include "ref/transport/render.h"
+#include "ref/transport/strategy_layers.h"
+#include "tests/ref/transport/scene_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace {
+
+using ref::Rgb;
+using ref::StrategyLayers;
+
+constexpr int width = 20;
+constexpr int height = 18; // more than one tile
+constexpr int max_edges = 4;
+
+StrategyLayers rendered(bool weighted, unsigned threads, images::Film& film)
+{
+    const scenes::Scene scene = transport_test::our_scene("cornell_glass");
+    const ref::World world(scene, width, height);
+    StrategyLayers layers(width, height, max_edges, weighted);
+    ref::render(world, ref::trace_bidirectionally, {{.seed = 4, .max_edges = max_edges}, 3, 4, threads},
+                film, {}, &layers);
+    return layers;
+}
+
+// Both are sums of the same terms, in another order: some 15 strategies, 12 samples, 20 splats a pixel
+// at most, all positive. 1e3 roundings are far more than there are.
+TEST(StrategyLayers, WeightedLayersAddUpToThePicture)
+{
+    images::Film film(width, height);
+    images::Image sum(width, height);
+    for (const auto& [strategy, image] : rendered(true, 2, film).means())
+        for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += image.pixels[i];
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            ASSERT_NEAR(sum.pixels[i][channel], film.mean().pixels[i][channel],
+                        1e3 * 0x1p-53 * film.mean().pixels[i][channel]);
+}
+
+TEST(StrategyLayers, DoNotDependOnTheNumberOfThreads)
+{
+    images::Film film(width, height);
+    images::Film again(width, height);
+    EXPECT_EQ(rendered(false, 1, film).means(), rendered(false, 3, again).means());
+}
+
+// Directly seen light: both strategies find all of it alone; together they must share it.
+TEST(StrategyLayers, UnweightedLayersShowTheirStrategyAlone)
+{
+    images::Film film(width, height);
+    images::Film again(width, height);
+    const auto alone = rendered(false, 2, film).means();
+    const auto shared = rendered(true, 2, again).means();
+    const auto brightest = [](const images::Image& image) {
+        double most = 0.0;
+        for (const Rgb& pixel : image.pixels) most = std::max(most, pixel.x);
+        return most;
+    };
+    ASSERT_TRUE(alone.contains({0, 2}) && alone.contains({1, 1}));
+    EXPECT_GT(brightest(alone.at({0, 2})), brightest(shared.at({0, 2})));
+    EXPECT_EQ(film, again); // the picture itself is weighted either way
+    EXPECT_FALSE(alone.contains({max_edges + 1, 1}));
+}
+
+TEST(StrategyLayers, RefusesLengthsThatWouldFillTheMemory)
+{
+    EXPECT_THROW(StrategyLayers(4, 4, ref::unlimited_edges, true), std::invalid_argument);
+    EXPECT_THROW(StrategyLayers(4, 4, 0, true), std::invalid_argument);
+    EXPECT_NO_THROW(StrategyLayers(4, 4, ref::most_edges_of_layers, true));
+}
+
+} // namespace

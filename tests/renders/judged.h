@@ -1,0 +1,148 @@
+#pragma once
+
+// A scene rendered in stages by a renderer, right or wrong, and judged by its golden.
+
+#include "golden/compare.h"
+#include "golden/report.h"
+#include "ref/transport/render.h"
+#include "scenes/read_scene.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace renders_test {
+
+inline const std::filesystem::path source = PLUMBLINE_SOURCE_DIR;
+
+inline std::filesystem::path golden_of(const std::string& name)
+{
+    return source / "golden/renders" / (name + ".exr");
+}
+
+inline std::filesystem::path scene_of(const std::string& name)
+{
+    return source / "scenes" / (name + ".dae");
+}
+
+struct Judged {
+    golden::Golden golden;
+    golden::Comparison comparison;
+    images::Image mean; // of the last stage
+    images::Metadata metadata;
+};
+
+/// What a renderer is told: the golden's own parameters.
+struct Plan {
+    const scenes::Scene& scene;
+    int width, height;
+    std::uint32_t batch_size;
+    int max_edges;
+};
+
+/// The batch of that number of a picture with that seed.
+using RenderBatch = std::function<images::Image(std::uint64_t seed, std::uint64_t number)>;
+
+/// Renders with random numbers that nobody used before, by what `make_renderer` makes of the plan. The
+/// integrator calls itself `calls_itself` in the metadata.
+inline Judged judged(const std::string& name,
+                     const std::function<RenderBatch(const Plan&)>& make_renderer,
+                     const std::string& calls_itself, golden::Method method,
+                     const golden::CompareOptions& options)
+{
+    Judged result{golden::read_golden(golden_of(name)), {}, {}, {}};
+    const scenes::Scene scene = scenes::read_scene(scene_of(name));
+    const std::uint64_t seed = std::random_device()();
+    result.metadata = result.golden.metadata;
+    result.metadata["integrator"] = calls_itself;
+    result.metadata["scene_hash"] = scene.hash;
+    result.metadata["seed"] = std::to_string(seed);
+    golden::check_comparable(result.golden, result.metadata, method);
+
+    const RenderBatch render_batch =
+        make_renderer({scene, result.golden.mean.width, result.golden.mean.height,
+                       static_cast<std::uint32_t>(std::stoul(result.metadata.at("batch_size"))),
+                       std::stoi(result.metadata.at("max_edges"))});
+    const auto render = [&](std::size_t stage, std::uint64_t batches, golden::Candidate& candidate) {
+        for (std::uint64_t i = 0; i < batches; ++i) candidate.add_batch(render_batch(seed + stage, i));
+        result.mean = candidate.film().mean();
+    };
+    result.comparison = golden::compare(result.golden, render, method, options);
+    return result;
+}
+
+/// The same by the reference.
+inline Judged judged(const std::string& name, ref::Integrator integrator,
+                     const std::string& calls_itself, golden::Method method,
+                     const golden::CompareOptions& options)
+{
+    const auto by_reference = [&](const Plan& plan) -> RenderBatch {
+        const auto world = std::make_shared<ref::World>(plan.scene, plan.width, plan.height);
+        ref::RenderOptions render;
+        render.threads = 2;
+        render.batch_size = plan.batch_size;
+        render.path.max_edges = plan.max_edges;
+        return [=](std::uint64_t seed, std::uint64_t number) mutable {
+            render.path.seed = seed;
+            return *ref::render_batch(*world, integrator, render, number);
+        };
+    };
+    return judged(name, std::function<RenderBatch(const Plan&)>(by_reference), calls_itself, method,
+                  options);
+}
+
+inline bool is_long()
+{
+    const char* value = std::getenv("PLUMBLINE_LONG");
+    return value != nullptr && std::string(value) == "1";
+}
+
+/// The first stage is what every run costs, the other is for a suspicion. Fewer than some 20 batches
+/// could not convict anyone: the ranks of so few say too little. PLUMBLINE_LONG=1 takes as many batches
+/// as it takes to see half a percent.
+inline golden::CompareOptions short_options()
+{
+    golden::CompareOptions options;
+    if (is_long()) return options;
+    options.stages = {32, 128};
+    options.specification = 0.04;
+    return options;
+}
+
+inline std::vector<std::string> scenes_with_goldens()
+{
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(source / "golden/renders"))
+        if (entry.path().extension() == ".exr") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// Says on stdout what was found.
+inline void print(const std::string& name, const std::string& estimator, const Judged& judged)
+{
+    std::cout << name << ", " << estimator << ", seed " << judged.metadata.at("seed") << ": "
+              << describe(judged.comparison.verdict) << ". " << judged.comparison.reason
+              << " Conclusive: " << 100.0 * judged.comparison.coverage << "% of the tests.\n";
+}
+
+/// Writes the report of a failure and says where.
+inline std::string with_report(const std::string& name, const std::string& estimator,
+                               const Judged& judged)
+{
+    const std::filesystem::path report =
+        std::filesystem::path(PLUMBLINE_REPORTS) / (name + "_" + estimator + ".html");
+    std::filesystem::create_directories(report.parent_path());
+    golden::write_report(report, {name + " by " + estimator + " against its golden", judged.comparison,
+                                  judged.golden, judged.mean, judged.metadata});
+    return judged.comparison.reason + "\nThe report: " + report.string();
+}
+
+} // namespace renders_test

@@ -1,0 +1,62 @@
+#pragma once
+
+// Bidirectional path tracers that are wrong in ways that renderers have been wrong.
+
+#include "ref/transport/bdpt.h"
+
+#include <vector>
+
+namespace renders_test {
+
+using ref::Contribution;
+
+/// Bidirectional path tracing, each of its contributions altered.
+template <void (*alter)(Contribution&)>
+void altered(const ref::World& world, const ref::PathOptions& options, const ref::SampleId& id,
+             std::vector<Contribution>& out)
+{
+    const std::size_t first = out.size();
+    ref::trace_bidirectionally(world, options, id, out);
+    for (std::size_t i = first; i < out.size(); ++i) alter(out[i]);
+}
+
+/// A factor of the camera that is off by one percent.
+inline void dim_by_one_percent(Contribution& c)
+{
+    c.value *= 0.99;
+}
+
+inline void dim_by_two_percent(Contribution& c)
+{
+    c.value *= 0.98;
+}
+
+/// The weights of a course report: all strategies of a length alike, possible or not.
+inline void weigh_uniformly(Contribution& c)
+{
+    c.weight = 1.0 / (c.s + c.t);
+}
+
+/// The light image of a crop, its share of the film forgotten.
+inline void scale_splats(Contribution& c)
+{
+    if (c.t == 1) c.value *= 0.5;
+}
+
+inline void drop_next_event(Contribution& c)
+{
+    if (c.s == 1 && c.t == 2) c.weight = 0.0;
+}
+
+inline void drop_inner_connection(Contribution& c)
+{
+    if (c.s == 2 && c.t == 2) c.weight = 0.0;
+}
+
+/// What light paths show lands a pixel to the left: a projection that rounds wrongly.
+inline void misplace_splats(Contribution& c)
+{
+    if (c.t == 1 && c.pixel > 0) --c.pixel;
+}
+
+} // namespace renders_test
