@@ -4,6 +4,7 @@
 #include "cli/interrupt.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
+#include "cli/renderer.h"
 #include "images/exr.h"
 #include "images/image_error.h"
 
@@ -78,8 +79,7 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
     }
     metadata["command"] = command_of(options, file);
 
-    const ref::RenderOptions plan = render_options(command);
-    const ref::World world(scene, size.width, size.height);
+    const auto renderer = renderer_for(command, scene);
     const Clock::time_point start = Clock::now();
     Clock::time_point kept = start;
     const auto keep = [&](images::FilmState state) {
@@ -89,19 +89,16 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
     {
         Progress progress(scene.name, static_cast<double>(maker->film().batches()),
                           static_cast<double>(batches), options.quiet);
-        const ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
-        while (maker->film().batches() < batches) {
-            const auto batch =
-                ref::render_batch(world, integrator_of(command), plan, maker->film().batches(), monitor);
-            if (!batch) {
-                if (maker->film().batches() > 0) keep(images::FilmState::keep);
-                return false;
-            }
-            maker->add_batch(*batch);
-            if (std::chrono::duration<double>(Clock::now() - kept).count() >= options.watch) {
-                keep(images::FilmState::keep);
-                kept = Clock::now();
-            }
+        const images::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
+        const auto add = [&](const images::Batch& batch) {
+            maker->add_batch(batch.mean);
+            if (std::chrono::duration<double>(Clock::now() - kept).count() < options.watch) return;
+            keep(images::FilmState::keep);
+            kept = Clock::now();
+        };
+        if (!render_batches(*renderer, maker->film().batches(), batches, monitor, add)) {
+            if (maker->film().batches() > 0) keep(images::FilmState::keep);
+            return false;
         }
     }
     keep(images::FilmState::omit);
@@ -181,7 +178,7 @@ RenderCommand render_of(const golden::Golden& golden, const std::string& scene)
     command.integrator = text("integrator");
     command.heuristic = text("heuristic");
     command.max_edges = text("max_edges") == "unlimited"
-                            ? ref::unlimited_edges
+                            ? images::unlimited_edges
                             : static_cast<int>(number_in(metadata, "max_edges"));
     command.no_roulette = text("roulette") == "off";
     command.frame = text("camera") == "framed";

@@ -2,6 +2,7 @@
 
 #include "cli/golden.h"
 #include "cli/interrupt.h"
+#include "cli/renderer.h"
 #include "golden/compare.h"
 #include "scenes/read_scene.h"
 
@@ -45,7 +46,7 @@ Outcome verify(const GoldenCommand& options, const std::string& file)
     golden::check_comparable(stored, {{"scene_hash", scene.hash}}, golden::Method::picture);
 
     const Size size = parse_size(command.size);
-    const ref::World world(scene, size.width, size.height);
+    const auto renderer = renderer_for(command, scene);
     const std::uint64_t reference = stored.reference.size();
     const std::uint64_t total = command.samples / command.batch_size;
     const std::uint64_t pilot = total - reference;
@@ -59,15 +60,15 @@ Outcome verify(const GoldenCommand& options, const std::string& file)
         std::iota(chosen.begin(), chosen.end(), 0);
     }
     for (const std::uint64_t number : chosen) {
-        const auto batch = ref::render_batch(world, integrator_of(command), render_options(command),
-                                             number, {{}, interrupt_requested});
+        const auto batch = renderer->render_batch(number, {{}, interrupt_requested});
         if (!batch) return Outcome::interrupted;
-        if (number >= pilot && stored.functionals.evaluate(*batch) != stored.reference[number - pilot]) {
+        if (number >= pilot &&
+            stored.functionals.evaluate(batch->mean) != stored.reference[number - pilot]) {
             std::printf("%s: batch %llu is another one now\n", scene.name.c_str(),
                         static_cast<unsigned long long>(number));
             return Outcome::different;
         }
-        if (everything) film.add_batch(*batch);
+        if (everything) film.add_batch(batch->mean);
     }
     if (everything)
         for (std::size_t i = 0; i < film.mean().pixels.size(); ++i)

@@ -1,14 +1,13 @@
 // `plumbline render`: a scene file in, pictures out.
 
 #include "cli/command.h"
-#include "cli/fast_render.h"
 #include "cli/idle_options.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "cli/render_report.h"
+#include "cli/renderer.h"
 #include "cli/resources.h"
-#include "cuda/transport/renderer.h"
 #include "images/exr.h"
 #include "images/file_ending.h"
 #include "images/png.h"
@@ -32,49 +31,6 @@ double seconds_since(Clock::time_point start)
 {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-/// What renders, the reference or the fast path, with its layers of strategies.
-class Rendering {
-public:
-    Rendering(const RenderCommand& options, const scenes::Scene& scene) : options_(options)
-    {
-        const Size size = parse_size(options.size);
-        if (options.device != "ref") {
-            fast_ = fast_renderer(options, scene);
-            return;
-        }
-        world_.emplace(scene, size.width, size.height, builder_of(options));
-        if (wants_layers(options))
-            layers_.emplace(size.width, size.height, options.max_edges, !options.unweighted);
-    }
-
-    /// Adds batches to `film` until it holds all, and returns whether it does: see ref::render.
-    bool run(images::Film& film, const ref::Monitor& monitor)
-    {
-        return fast_ ? cli::render(*fast_, options_, film, monitor, fast_layers_)
-                     : ref::render(*world_, integrator_of(options_), render_options(options_), film,
-                                   monitor, layers_ ? &*layers_ : nullptr);
-    }
-
-    /// The layers as they stand; call it between batches.
-    [[nodiscard]] images::Strategies strategies() const
-    {
-        return fast_ ? fast_layers_.means() : layers_->means();
-    }
-
-    /// The kernel of the fast path.
-    [[nodiscard]] std::optional<gpu::Needs> kernel() const
-    {
-        return fast_ ? std::optional(fast_->needs()) : std::nullopt;
-    }
-
-private:
-    const RenderCommand& options_;
-    std::optional<ref::World> world_;
-    std::optional<ref::StrategyLayers> layers_;
-    std::unique_ptr<gpu::Renderer> fast_;
-    LayerSums fast_layers_;
-};
 
 /// `metadata`, with what is known only of a film: how many samples it holds, and how many contributions
 /// it lacks because they are not finite.
@@ -106,7 +62,7 @@ void write_strategies(const RenderCommand& options, const images::Strategies& pi
     if (!options.strategies.empty()) {
         images::Layers named;
         for (const auto& [strategy, image] : pictures)
-            named.emplace(ref::layer_name(strategy.first, strategy.second), image);
+            named.emplace(images::layer_name(strategy.first, strategy.second), image);
         images::write_exr(options.strategies, film, metadata, named, images::FilmState::omit);
     }
     if (!options.strategies_picture.empty())
@@ -130,13 +86,14 @@ ExitStatus render(const RenderCommand& options)
     images::Dropped dropped;
     images::Film film = starting_film(options, metadata, dropped);
     const std::uint64_t batches_before = film.batches();
-    Rendering rendering(options, scene);
+    const auto renderer = renderer_for(options, scene);
+    images::StrategySums strategies;
     images::Layers batches; // those that are to be kept
     PictureMean mean;
     const auto write_all = [&](const images::Film& so_far) {
         const images::Metadata described = describe_film(options, so_far, dropped, metadata);
         write_pictures(options, so_far, described, batches);
-        if (wants_layers(options)) write_strategies(options, rendering.strategies(), so_far, described);
+        if (wants_layers(options)) write_strategies(options, strategies.means(), so_far, described);
     };
 
     catch_interrupts();
@@ -146,20 +103,19 @@ ExitStatus render(const RenderCommand& options)
     bool complete = false;
     {
         Progress progress(scene.name, static_cast<double>(batches_before),
-                          static_cast<double>(render_options(options).batches), options.quiet);
-        ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
-        monitor.batch = [&](const images::Image& batch) {
-            mean.add_batch(batch);
-            if (options.keep_batches) batches.emplace(batch_name(batches.size()), batch);
-        };
-        monitor.dropped = [&](const images::Dropped& of_batch) { dropped += of_batch; };
-        if (options.watch > 0.0)
-            monitor.kept = [&](const images::Film& so_far) {
-                if (seconds_since(written) < options.watch) return;
-                write_all(so_far);
+                          static_cast<double>(options.samples / options.batch_size), options.quiet);
+        const images::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested,
+                                      [&](const images::Dropped& of_batch) { dropped += of_batch; }};
+        const auto added = [&](const images::Batch& batch) {
+            mean.add_batch(batch.mean);
+            strategies.add(batch.strategies, options.batch_size);
+            if (options.keep_batches) batches.emplace(batch_name(batches.size()), batch.mean);
+            if (options.watch > 0.0 && seconds_since(written) >= options.watch) {
+                write_all(film);
                 written = Clock::now();
-            };
-        complete = rendering.run(film, monitor);
+            }
+        };
+        complete = images::fill(film, options.samples / options.batch_size, *renderer, monitor, added);
     }
     const double seconds = seconds_since(start);
     const double cpu = cpu_seconds() - cpu_start;
@@ -168,7 +124,7 @@ ExitStatus render(const RenderCommand& options)
     if (anything) write_all(film);
     const auto samples = static_cast<double>((film.batches() - batches_before) * options.batch_size) *
                          size.width * size.height;
-    const RenderRun run{scene, film, mean, dropped, rendering.kernel(), samples, seconds, cpu};
+    const RenderRun run{scene, film, mean, dropped, kernel_of(*renderer), samples, seconds, cpu};
     for (const std::string& warning : warnings(run))
         std::cerr << "plumbline: warning: " << shown_name(options.scene) << ": " << warning << '\n';
     if (options.json) std::cout << render_json(options, run) << std::endl;

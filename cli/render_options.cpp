@@ -3,8 +3,6 @@
 #include "cli/builders.h"
 #include "cli/output_files.h"
 #include "images/write_image.h"
-#include "ref/transport/bdpt.h"
-#include "ref/transport/path_tracer.h"
 
 #include <charconv>
 #include <cmath>
@@ -16,10 +14,11 @@ namespace cli {
 
 namespace {
 
-const std::map<std::string, ref::Integrator> integrators = {
-    {"path", ref::trace_path}, {"bdpt", ref::trace_bidirectionally}, {"light", ref::trace_light}};
-const std::map<std::string, ref::Heuristic> heuristics = {{"balance", ref::Heuristic::balance},
-                                                          {"power", ref::Heuristic::power}};
+const std::map<std::string, images::Integrator> integrators = {{"path", images::Integrator::path},
+                                                               {"bdpt", images::Integrator::bdpt},
+                                                               {"light", images::Integrator::light}};
+const std::map<std::string, images::Heuristic> heuristics = {{"balance", images::Heuristic::balance},
+                                                             {"power", images::Heuristic::power}};
 
 /// Each is a picture in memory and in the file.
 constexpr std::uint64_t most_batches_kept = 1024;
@@ -139,14 +138,14 @@ void settle_batch_size(RenderCommand& options, bool given)
 void check(const RenderCommand& options)
 {
     expect_whole_batches(options.samples, options.batch_size);
-    if (options.no_roulette && options.max_edges == ref::unlimited_edges)
+    if (options.no_roulette && options.max_edges == images::unlimited_edges)
         throw std::invalid_argument("--no-roulette needs --max-edges: paths would never end");
     if (std::isnan(options.exposure) || std::isnan(options.watch))
         throw std::invalid_argument("--exposure and --watch expect numbers, and got a NaN");
     const bool layers = wants_layers(options);
-    if (layers && options.max_edges > ref::most_edges_of_layers)
+    if (layers && options.max_edges > images::most_edges_of_strategies)
         throw std::invalid_argument("--strategies needs --max-edges of at most " +
-                                    std::to_string(ref::most_edges_of_layers) +
+                                    std::to_string(images::most_edges_of_strategies) +
                                     ": one picture per strategy");
     if (layers && options.resume)
         throw std::invalid_argument(
@@ -165,22 +164,20 @@ bool wants_layers(const RenderCommand& options)
     return !options.strategies.empty() || !options.strategies_picture.empty();
 }
 
-ref::Integrator integrator_of(const RenderCommand& options)
+images::RenderOptions render_options(const RenderCommand& options)
 {
-    return integrators.at(options.integrator);
-}
-
-ref::Builder builder_of(const RenderCommand& options)
-{
-    return builder_named(options.builder);
-}
-
-ref::RenderOptions render_options(const RenderCommand& options)
-{
-    return {{options.seed, options.max_edges, !options.no_roulette, heuristics.at(options.heuristic)},
-            options.samples / options.batch_size,
-            options.batch_size,
-            options.threads};
+    images::RenderOptions plan;
+    plan.integrator = integrators.at(options.integrator);
+    plan.heuristic = heuristics.at(options.heuristic);
+    plan.seed = options.seed;
+    plan.max_edges = options.max_edges;
+    plan.roulette = !options.no_roulette;
+    plan.batch_size = options.batch_size;
+    plan.deterministic = options.deterministic;
+    if (wants_layers(options))
+        plan.strategies = options.unweighted ? images::StrategyPictures::unweighted
+                                             : images::StrategyPictures::weighted;
+    return plan;
 }
 
 } // namespace cli

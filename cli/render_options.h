@@ -5,7 +5,7 @@
 #include "cli/scene_input.h"
 #include "images/dropped.h"
 #include "images/film.h"
-#include "ref/transport/render.h"
+#include "images/render_options.h"
 #include "scenes/scene.h"
 
 #include <CLI/CLI.hpp>
@@ -28,7 +28,7 @@ struct RenderCommand {
     std::string integrator = "path";
     std::string builder = "sah-leaf";
     std::string heuristic = "balance";
-    int max_edges = ref::unlimited_edges;
+    int max_edges = images::unlimited_edges;
     bool no_roulette = false;
     bool deterministic = false;
     std::uint64_t seed = 0;
@@ -64,9 +64,7 @@ void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size);
 /// What the metadata say of `key`; the empty string if they say nothing.
 std::string value_of(const images::Metadata& metadata, const std::string& key);
 
-ref::Integrator integrator_of(const RenderCommand& options);
-ref::RenderOptions render_options(const RenderCommand& options);
-ref::Builder builder_of(const RenderCommand& options);
+images::RenderOptions render_options(const RenderCommand& options);
 
 /// Everything that shapes the picture, and so must be the same for one render to go on from another: not
 /// the threads and not the builder of the tree, which change no bit.

@@ -4,6 +4,8 @@
 #include "scenes/emission.h"
 #include "scenes/requirements.h"
 
+#include <glm/exponential.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>

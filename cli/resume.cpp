@@ -18,7 +18,7 @@ images::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
                                  {"integrator", options.integrator},
                                  {"heuristic", options.heuristic},
                                  {"batch_size", std::to_string(options.batch_size)},
-                                 {"max_edges", options.max_edges == ref::unlimited_edges
+                                 {"max_edges", options.max_edges == images::unlimited_edges
                                                    ? "unlimited"
                                                    : std::to_string(options.max_edges)},
                                  {"roulette", options.no_roulette ? "off" : "on"},

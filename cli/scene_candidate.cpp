@@ -1,10 +1,9 @@
 #include "cli/scene_candidate.h"
 
-#include "cli/fast_render.h"
 #include "cli/golden.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "cuda/transport/renderer.h"
+#include "cli/renderer.h"
 
 #include <cmath>
 #include <optional>
@@ -35,24 +34,17 @@ Judged judge_scene(const golden::Golden& golden, const std::string& file,
     const golden::Method method =
         same_estimator(metadata, golden.metadata) ? golden::Method::ranks : golden::Method::welch;
     golden::check_comparable(golden, metadata, method);
-    const Size size = parse_size(command.size);
-    std::optional<ref::World> world;
-    if (command.device == "ref") world.emplace(scene, size.width, size.height);
     images::Image mean;
     const auto render = [&](std::size_t stage, std::uint64_t batches, golden::Candidate& candidate) {
         command.seed = seed + stage;
         command.samples = batches * command.batch_size;
         Progress progress(scene.name + ", stage " + std::to_string(stage + 1), 0.0,
                           static_cast<double>(batches), options.quiet);
-        const ref::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
-        const auto fast = world ? nullptr : fast_renderer(command, scene);
-        for (std::uint64_t i = 0; i < batches; ++i) {
-            const auto batch = fast ? render_batch(*fast, command, i, monitor)
-                                    : ref::render_batch(*world, integrator_of(command),
-                                                        render_options(command), i, monitor);
-            if (!batch) throw Interrupted();
-            candidate.add_batch(*batch);
-        }
+        const images::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
+        const auto renderer = renderer_for(command, scene);
+        if (!render_batches(*renderer, 0, batches, monitor,
+                            [&](const images::Batch& batch) { candidate.add_batch(batch.mean); }))
+            throw Interrupted();
         mean = candidate.film().mean();
         metadata["samples"] = std::to_string(command.samples);
     };

@@ -18,7 +18,7 @@ struct Report {
     const images::Image& candidate; // the mean of all its batches
     images::Metadata candidate_metadata;
     images::Layers strategies =
-        {}; // of the candidate, by the names of ref::layer_name: "s2t3"; may be empty
+        {}; // of the candidate, by the names of images::layer_name: "s2t3"; may be empty
 };
 
 /// One JSON object: verdict, reason, p, per channel ratio, interval, smallest detectable error and what

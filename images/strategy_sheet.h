@@ -3,15 +3,9 @@
 // The classic picture of bidirectional path tracing [Veach 1997, sec. 10.3]: all strategies at one
 // glance.
 
-#include "images/image.h"
-
-#include <map>
-#include <utility>
+#include "images/strategies.h"
 
 namespace images {
-
-/// Pictures of the same size by strategy (s, t), s >= 0, t >= 1.
-using Strategies = std::map<std::pair<int, int>, Image>;
 
 /// One row for each path length k = s + t - 1, its strategies from s = 0 on the left to t = 1 on the
 /// right, each labelled; strategies that are not there are black. Longer paths carry less light: row k

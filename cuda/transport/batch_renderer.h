@@ -89,12 +89,16 @@ template <Executor E>
 class BatchRenderer : public Renderer {
 public:
     BatchRenderer(Memory& memory, E& executor, const LaunchLimits& limits, const scenes::Scene& scene,
-                  int width, int height, const RenderOptions& options)
+                  int width, int height, const images::RenderOptions& options, Needs at_least)
         : BatchRenderer(memory, executor, limits, scene, scene_arrays(scene, options.roulette), width,
-                        height, options)
+                        height, options, at_least)
     {}
 
-    std::optional<Batch> render_batch(std::uint64_t number, const Monitor& monitor) override
+    [[nodiscard]] Needs needs() const override { return needs_; }
+
+private:
+    std::optional<images::Batch> make_batch(std::uint64_t number,
+                                            const images::Monitor& monitor) override
     {
         const std::uint32_t first = first_sample_of(number, options_.batch_size);
         clear(executor_, sums_.all());
@@ -109,8 +113,9 @@ public:
             const std::uint32_t width = std::min(launch_size_.get(), pixels_ - pixel);
             for (std::uint32_t sample = 0; sample < options_.batch_size;) {
                 if (monitor.stop && monitor.stop()) return std::nullopt;
-                const std::uint32_t at_once =
-                    options_.layers == Layers::none ? std::max(launch_size_.get() / width, 1u) : 1u;
+                const std::uint32_t at_once = options_.strategies == images::StrategyPictures::none
+                                                  ? std::max(launch_size_.get() / width, 1u)
+                                                  : 1u;
                 const Launch launch{pixel, width, first + sample,
                                     std::min(at_once, options_.batch_size - sample)};
                 const auto start = std::chrono::steady_clock::now();
@@ -120,20 +125,19 @@ public:
                 sample += launch.samples;
                 done += launch.count();
                 if (monitor.progress)
-                    monitor.progress(static_cast<double>(done) / static_cast<double>(all));
+                    monitor.progress(static_cast<double>(number) +
+                                     static_cast<double>(done) / static_cast<double>(all));
             }
             pixel += width;
         }
         return collect();
     }
 
-    [[nodiscard]] Needs needs() const override { return needs_; }
-
-private:
     BatchRenderer(Memory& memory, E& executor, const LaunchLimits& limits, const scenes::Scene& scene,
-                  const SceneArrays& arrays, int width, int height, const RenderOptions& options)
+                  const SceneArrays& arrays, int width, int height, const images::RenderOptions& options,
+                  Needs at_least)
         : executor_(executor), options_(checked(options)), width_(width), height_(height),
-          pixels_(pixel_count(width, height)), needs_(needs_of(arrays) | options.at_least),
+          pixels_(pixel_count(width, height)), needs_(needs_of(arrays) | at_least),
           scene_(memory, executor, arrays, camera_of(scene, arrays.place, width, height)),
           capacity_(options_.integrator == Integrator::bdpt
                         ? most_light_vertices(arrays, options_.max_edges)
@@ -144,31 +148,40 @@ private:
           sums_(memory, pixels_),
           splats_(memory, options.deterministic ? 0 : splat_pictures() * pixels_),
           exact_(memory, options.deterministic ? 3 * splat_pictures() * pixels_ : 0),
-          layers_(memory, options.layers == Layers::none ? 0 : layer_count() * std::size_t{pixels_}),
+          layers_(memory, options.strategies == images::StrategyPictures::none
+                              ? 0
+                              : layer_count() * std::size_t{pixels_}),
           dropped_(memory, 1)
     {}
 
-    static RenderOptions checked(RenderOptions options)
+    static images::RenderOptions checked(images::RenderOptions options)
     {
         if (options.max_edges < 1) throw std::invalid_argument("a path has at least one edge");
         options.max_edges = std::min(options.max_edges, most_edges);
-        if (options.layers != Layers::none && options.max_edges > most_edges_of_layers)
+        if (options.strategies != images::StrategyPictures::none &&
+            options.max_edges > images::most_edges_of_strategies)
             throw std::invalid_argument("a picture for each strategy needs paths of at most " +
-                                        std::to_string(most_edges_of_layers) + " edges");
+                                        std::to_string(images::most_edges_of_strategies) + " edges");
         return options;
     }
     /// One of all splats; with layers, one more for each strategy (s, 1).
     [[nodiscard]] std::size_t splat_pictures() const
     {
-        return options_.layers == Layers::none ? 1 : 1 + static_cast<std::size_t>(options_.max_edges);
+        return options_.strategies == images::StrategyPictures::none
+                   ? 1
+                   : 1 + static_cast<std::size_t>(options_.max_edges);
     }
     [[nodiscard]] std::size_t layer_count() const { return layer_of(options_.max_edges, 1) + 1; }
 
     void run(const Launch& launch)
     {
         const PathOptions path{options_.seed, options_.max_edges, options_.heuristic};
-        const FilmTarget film{own_.all(),     {splats_.all(), exact_.all()},       layers_.all(),
-                              dropped_.all(), options_.layers == Layers::weighted, pixels_};
+        const FilmTarget film{own_.all(),
+                              {splats_.all(), exact_.all()},
+                              layers_.all(),
+                              dropped_.all(),
+                              options_.strategies == images::StrategyPictures::weighted,
+                              pixels_};
         const SampleJob job{path, launch, film, kept_.all(), capacity_};
         switch (options_.integrator) {
         case Integrator::path:
@@ -210,16 +223,16 @@ private:
                 static_cast<int>(key & 0xffff)};
     }
 
-    [[nodiscard]] Batch collect() const
+    [[nodiscard]] images::Batch collect() const
     {
-        Batch batch;
+        images::Batch batch;
         batch.dropped = dropped();
         batch.mean = splats(0);
         const std::vector<Rgb> own = sums_.read(pixels_);
         for (std::size_t i = 0; i < pixels_; ++i)
             batch.mean.pixels[i] =
                 (images::Rgb(own[i]) + batch.mean.pixels[i]) / static_cast<double>(options_.batch_size);
-        if (options_.layers == Layers::none) return batch;
+        if (options_.strategies == images::StrategyPictures::none) return batch;
         for (int k = 1; k <= options_.max_edges; ++k)
             for (int s = 0; s <= k; ++s) {
                 images::Image image(width_, height_);
@@ -230,13 +243,13 @@ private:
                         layers_.read(std::size_t{layer_of(s, k + 1 - s)} * pixels_, pixels_);
                     for (std::size_t i = 0; i < pixels_; ++i) image.pixels[i] = images::Rgb(sums[i]);
                 }
-                batch.layers.emplace(std::pair(s, k + 1 - s), std::move(image));
+                batch.strategies.emplace(std::pair(s, k + 1 - s), std::move(image));
             }
         return batch;
     }
 
     E& executor_;
-    RenderOptions options_;
+    images::RenderOptions options_;
     int width_, height_;
     std::uint32_t pixels_;
     Needs needs_;

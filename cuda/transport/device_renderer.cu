@@ -39,17 +39,18 @@ constexpr LaunchLimits limits{1u << 15, 1u << 20, std::size_t{4} << 30};
 
 class DeviceRenderer : private DeviceParts, public BatchRenderer<CudaExecutor> {
 public:
-    DeviceRenderer(const scenes::Scene& scene, int width, int height, const RenderOptions& options)
-        : BatchRenderer(memory, executor, limits, scene, width, height, options)
+    DeviceRenderer(const scenes::Scene& scene, int width, int height,
+                   const images::RenderOptions& options, Needs at_least)
+        : BatchRenderer(memory, executor, limits, scene, width, height, options, at_least)
     {}
 };
 
 } // namespace
 
 std::unique_ptr<Renderer> device_renderer(const scenes::Scene& scene, int width, int height,
-                                          const RenderOptions& options)
+                                          const images::RenderOptions& options, Needs at_least)
 {
-    return std::make_unique<DeviceRenderer>(scene, width, height, options);
+    return std::make_unique<DeviceRenderer>(scene, width, height, options, at_least);
 }
 
 } // namespace gpu

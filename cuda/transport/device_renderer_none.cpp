@@ -8,7 +8,7 @@
 namespace gpu {
 
 std::unique_ptr<Renderer> device_renderer(const scenes::Scene& /*scene*/, int /*width*/, int /*height*/,
-                                          const RenderOptions& /*options*/)
+                                          const images::RenderOptions& /*options*/, Needs /*at_least*/)
 {
     throw std::runtime_error(find_device().description);
 }

@@ -20,18 +20,20 @@ struct HostParts {
 
 class HostRenderer : private HostParts, public BatchRenderer<ThreadedExecutor> {
 public:
-    HostRenderer(const scenes::Scene& scene, int width, int height, const RenderOptions& options,
-                 unsigned threads)
-        : HostParts(threads), BatchRenderer(memory, executor, limits, scene, width, height, options)
+    HostRenderer(const scenes::Scene& scene, int width, int height, const images::RenderOptions& options,
+                 unsigned threads, Needs at_least)
+        : HostParts(threads),
+          BatchRenderer(memory, executor, limits, scene, width, height, options, at_least)
     {}
 };
 
 } // namespace
 
 std::unique_ptr<Renderer> host_renderer(const scenes::Scene& scene, int width, int height,
-                                        const RenderOptions& options, unsigned threads)
+                                        const images::RenderOptions& options, unsigned threads,
+                                        Needs at_least)
 {
-    return std::make_unique<HostRenderer>(scene, width, height, options, threads);
+    return std::make_unique<HostRenderer>(scene, width, height, options, threads, at_least);
 }
 
 } // namespace gpu

@@ -21,11 +21,11 @@
 // where it will be joined. Two walks choose each other's version by their own lengths.
 
 #include "cuda/transport/material.h"
+#include "images/render_options.h"
 
 namespace gpu {
 
-/// How strategies that can make the same path share it [Veach 1997, sec. 9.2].
-enum class Heuristic { balance, power };
+using images::Heuristic;
 
 /// Keeps sums finite: a share below the reciprocal does not show in a sum of floats.
 constexpr float largest_sum = 1e30f;

@@ -3,6 +3,8 @@
 // What a scene can do without. A kernel is compiled once for each combination, and what a scene does not
 // have costs its kernels nothing: no branch, no register.
 
+#include "images/render_options.h"
+
 namespace gpu {
 
 /// A template argument of whatever depends on it. Triangles and Lambertian surfaces are always there.
@@ -18,10 +20,6 @@ struct Needs {
 };
 
 /// Path tracing and light tracing are bidirectional path tracing with some strategies left out.
-enum class Integrator {
-    path, // emission hits and next events, weighted against each other alone
-    bdpt, // all strategies
-    light // the light image alone, with weight 1
-};
+using images::Integrator;
 
 } // namespace gpu

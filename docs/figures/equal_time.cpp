@@ -48,10 +48,11 @@ Timed render_for(const ref::World& world, ref::Integrator integrator, std::uint6
     images::Film film(width, height);
     const double start = figures::cpu_seconds();
     double kept = 0.0;
-    ref::render(world, integrator, {{.seed = seed, .max_edges = max_edges}, 1U << 20, 1, 1}, film,
-                {{},
-                 [&] { return kept > 0.0 && figures::cpu_seconds() - start > seconds; },
-                 [&](const images::Film&) { kept = figures::cpu_seconds() - start; }});
+    const auto renderer =
+        ref::renderer(world, integrator, {.seed = seed, .max_edges = max_edges, .batch_size = 1});
+    images::fill(film, 1U << 20, *renderer,
+                 {{}, [&] { return kept > 0.0 && figures::cpu_seconds() - start > seconds; }},
+                 [&](const images::Batch& /*batch*/) { kept = figures::cpu_seconds() - start; });
     return {film.mean(), static_cast<double>(film.batches()) * width * height, kept};
 }
 

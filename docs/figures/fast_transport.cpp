@@ -54,12 +54,11 @@ Rendered render_for(double seconds, double (*clock)(), const RenderBatch& render
 Rendered fast(const scenes::Scene& scene, gpu::Integrator integrator, unsigned threads, double seconds,
               std::uint64_t seed, gpu::Needs at_least = {})
 {
-    gpu::RenderOptions options;
+    images::RenderOptions options;
     options.integrator = integrator;
     options.max_edges = max_edges;
     options.seed = seed;
-    options.at_least = at_least;
-    const auto renderer = gpu::host_renderer(scene, width, height, options, threads);
+    const auto renderer = gpu::host_renderer(scene, width, height, options, threads, at_least);
     return render_for(seconds, threads == 1 ? figures::cpu_seconds : wall_seconds,
                       [&](std::uint64_t number) { return renderer->render_batch(number, {})->mean; });
 }
@@ -68,10 +67,9 @@ Rendered by_reference(const scenes::Scene& scene, ref::Integrator integrator, do
                       std::uint64_t seed)
 {
     const ref::World world(scene, width, height);
-    const ref::RenderOptions options{{.seed = seed, .max_edges = max_edges}, 1U << 20, 4, 1};
-    return render_for(seconds, figures::cpu_seconds, [&](std::uint64_t number) {
-        return *ref::render_batch(world, integrator, options, number);
-    });
+    const auto renderer = ref::renderer(world, integrator, {.seed = seed, .max_edges = max_edges});
+    return render_for(seconds, figures::cpu_seconds,
+                      [&](std::uint64_t number) { return renderer->render_batch(number)->mean; });
 }
 
 /// Rates in thousands of samples per second.

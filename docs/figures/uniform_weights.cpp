@@ -44,7 +44,7 @@ Region region_of(const ref::World& world, int x, int y)
 }
 
 /// Of k edges, k strategies s = 1 ... k are counted, each with 1 / k; light seen directly is Case I.
-images::Image with_uniform_weights(const ref::StrategyLayers& unweighted)
+images::Image with_uniform_weights(const images::StrategySums& unweighted)
 {
     images::Image sum(width, height);
     for (const auto& [strategy, image] : unweighted.means()) {
@@ -59,16 +59,18 @@ images::Image with_uniform_weights(const ref::StrategyLayers& unweighted)
 /// One run of each method. The two weightings share their paths: they differ in the weights alone.
 std::array<images::Image, methods> rendered(const ref::World& world, std::uint64_t run)
 {
-    ref::RenderOptions options{{.seed = run, .max_edges = max_edges},
-                               samples_per_run / 4,
-                               4,
-                               std::max(1U, std::thread::hardware_concurrency())};
-    ref::StrategyLayers unweighted(width, height, max_edges, false);
+    const unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+    images::RenderOptions options{.seed = run, .max_edges = max_edges};
+    options.strategies = images::StrategyPictures::unweighted;
+    const std::uint64_t batches = samples_per_run / options.batch_size;
+    images::StrategySums unweighted;
     images::Film bidirectional(width, height);
-    ref::render(world, ref::trace_bidirectionally, options, bidirectional, {}, &unweighted);
+    images::fill(
+        bidirectional, batches, *ref::renderer(world, ref::trace_bidirectionally, options, threads), {},
+        [&](const images::Batch& batch) { unweighted.add(batch.strategies, options.batch_size); });
     images::Film unidirectional(width, height);
-    options.path.seed = run + 1000;
-    ref::render(world, ref::trace_path, options, unidirectional);
+    options = {.seed = run + 1000, .max_edges = max_edges};
+    images::fill(unidirectional, batches, *ref::renderer(world, ref::trace_path, options, threads));
     return {with_uniform_weights(unweighted), bidirectional.mean(), unidirectional.mean()};
 }
 

@@ -1,5 +1,7 @@
 #include "ref/transport/render.h"
 
+#include "ref/transport/bdpt.h"
+#include "ref/transport/path_tracer.h"
 #include "ref/trees/aabb.h"
 
 #include <algorithm>
@@ -31,49 +33,80 @@ std::vector<Tile> tiles_of(int width, int height)
     return tiles;
 }
 
+/// Sums of the pictures of all strategies (s, t) of at most `max_edges` edges.
+class StrategyImages {
+public:
+    StrategyImages(int width, int height, int max_edges, bool weighted)
+        : max_edges_(max_edges), weighted_(weighted),
+          sums_(index_of(max_edges, 1) + 1, images::Image(width, height))
+    {}
+
+    void add(const Contribution& c)
+    {
+        sums_[index_of(c.s, c.t)].pixels[c.pixel] += weighted_ ? c.weight * c.value : c.value;
+    }
+
+    /// Moves them out.
+    [[nodiscard]] images::Strategies take()
+    {
+        images::Strategies result;
+        for (int k = 1; k <= max_edges_; ++k)
+            for (int s = 0; s <= k; ++s)
+                result.emplace(std::pair(s, k + 1 - s), std::move(sums_[index_of(s, k + 1 - s)]));
+        return result;
+    }
+
+private:
+    /// Paths of k edges have k + 1 strategies, s = 0 ... k; before them stand those of 1 ... k - 1
+    /// edges.
+    static std::size_t index_of(int s, int t)
+    {
+        const int k = s + t - 1;
+        return static_cast<std::size_t>((k - 1) * (k + 2) / 2 + s);
+    }
+
+    int max_edges_;
+    bool weighted_;
+    std::vector<images::Image> sums_;
+};
+
 /// One batch in the making. Sums are formed in an order of their own, not in that of the threads: a
 /// pixel's own samples one after the other; apart from them what light walks splat on it, tile by tile;
 /// then both together. Splats of a tile that is done before its turn wait, the others are summed at
 /// once: a picture's worth of them would not fit in memory.
-class Batch {
+class BatchInMaking {
 public:
-    Batch(const World& world, Integrator integrator, const RenderOptions& options, std::uint64_t number,
-          StrategyLayers* layers)
+    BatchInMaking(const World& world, Integrator integrator, const images::RenderOptions& options,
+                  std::uint64_t number)
         : world_(world), integrator_(integrator), options_(options), number_(number),
           tiles_(tiles_of(world.camera.width(), world.camera.height())),
           sum_(world.camera.width(), world.camera.height()), waiting_(tiles_.size()),
           splat_sum_(world.camera.width(), world.camera.height())
     {
-        if (layers != nullptr) layers_ = layers->empty_copy();
+        if (options.strategies != images::StrategyPictures::none)
+            strategies_.emplace(sum_.width, sum_.height, options.max_edges,
+                                options.strategies == images::StrategyPictures::weighted);
     }
 
-    /// Whether it was finished: `monitor` may stop it.
-    bool run(const Monitor& monitor)
+    /// The batch, unless `monitor` stopped it.
+    std::optional<images::Batch> run(unsigned threads, const images::Monitor& monitor)
     {
         {
             std::vector<std::jthread> helpers;
-            for (unsigned i = 1; i < options_.threads; ++i) helpers.emplace_back([&] { work(monitor); });
+            for (unsigned i = 1; i < threads; ++i) helpers.emplace_back([&] { work(monitor); });
             work(monitor);
         }
         if (error_) std::rethrow_exception(error_);
-        if (stopped_) return false;
-        if (dropped_.count > 0) {
-            if (!monitor.dropped)
-                throw std::runtime_error(images::describe(dropped_, world_.camera.width()));
-            monitor.dropped(dropped_);
-        }
+        if (stopped_) return std::nullopt;
         for (std::size_t i = 0; i < sum_.pixels.size(); ++i)
             sum_.pixels[i] =
                 (sum_.pixels[i] + splat_sum_.pixels[i]) / static_cast<double>(options_.batch_size);
-        return true;
+        return images::Batch{std::move(sum_), strategies_ ? strategies_->take() : images::Strategies{},
+                             dropped_};
     }
 
-    /// The mean per pixel.
-    [[nodiscard]] const images::Image& mean() const { return sum_; }
-    [[nodiscard]] const std::optional<StrategyLayers>& layers() const { return layers_; }
-
 private:
-    void work(const Monitor& monitor)
+    void work(const images::Monitor& monitor)
     {
         try {
             for (std::size_t tile = next_tile_++; tile < tiles_.size() && !stopped_;
@@ -102,8 +135,8 @@ private:
     }
 
     /// Adds what the tile's samples show on their own pixels, and returns what they splat on any pixel:
-    /// the light image, t = 1. No other thread touches the tile's pixels, nor its layers of t > 1 there.
-    /// What is not finite goes to `dropped`.
+    /// the light image, t = 1. No other thread touches the tile's pixels, nor its strategies of t > 1
+    /// there. What is not finite goes to `dropped`.
     std::vector<Contribution> sample_tile(const Tile& tile, images::Dropped& dropped)
     {
         std::vector<Contribution> contributions;
@@ -114,8 +147,7 @@ private:
                 for (std::uint32_t i = 0; i < options_.batch_size; ++i) {
                     const auto sample = static_cast<std::uint32_t>(number_ * options_.batch_size + i);
                     contributions.clear();
-                    integrator_(world_, options_.path, {options_.path.seed, pixel, sample},
-                                contributions);
+                    integrator_(world_, path_, {path_.seed, pixel, sample}, contributions);
                     for (const Contribution& c : contributions) {
                         if (!is_finite(c.value) || !std::isfinite(c.weight))
                             dropped += {1, c.pixel, c.s, c.t};
@@ -141,16 +173,17 @@ private:
     void add(const Contribution& c, images::Image& sum)
     {
         sum.pixels[c.pixel] += c.weight * c.value;
-        if (layers_) layers_->add(c);
+        if (strategies_) strategies_->add(c);
     }
 
     const World& world_;
     Integrator integrator_;
-    const RenderOptions& options_;
+    const images::RenderOptions& options_;
+    PathOptions path_{options_.seed, options_.max_edges, options_.roulette, options_.heuristic};
     std::uint64_t number_;
     std::vector<Tile> tiles_;
     images::Image sum_; // in the end, the mean
-    std::optional<StrategyLayers> layers_;
+    std::optional<StrategyImages> strategies_;
 
     std::atomic<std::size_t> next_tile_ = 0;
     std::atomic<bool> stopped_ = false;
@@ -163,35 +196,68 @@ private:
     std::exception_ptr error_;
 };
 
+class RefRenderer : public images::Renderer {
+public:
+    RefRenderer(const World& world, Integrator integrator, const images::RenderOptions& options,
+                unsigned threads)
+        : world_(world), integrator_(integrator), options_(options), threads_(threads)
+    {
+        if (options.strategies != images::StrategyPictures::none &&
+            (options.max_edges < 1 || options.max_edges > images::most_edges_of_strategies))
+            throw std::invalid_argument("a picture for each strategy needs paths of at most " +
+                                        std::to_string(images::most_edges_of_strategies) + " edges");
+    }
+
+private:
+    std::optional<images::Batch> make_batch(std::uint64_t number,
+                                            const images::Monitor& monitor) override
+    {
+        return BatchInMaking(world_, integrator_, options_, number).run(threads_, monitor);
+    }
+
+    const World& world_;
+    Integrator integrator_;
+    images::RenderOptions options_;
+    unsigned threads_;
+};
+
+/// The world comes first: the renderer refers to it.
+class SceneRenderer : private World, public RefRenderer {
+public:
+    SceneRenderer(const scenes::Scene& source, int width, int height,
+                  const images::RenderOptions& options, unsigned threads, Builder builder)
+        : World(source, width, height, builder),
+          RefRenderer(static_cast<const World&>(*this), integrator_of(options.integrator), options,
+                      threads)
+    {}
+};
+
 } // namespace
 
-bool render(const World& world, Integrator integrator, const RenderOptions& options, images::Film& film,
-            const Monitor& monitor, StrategyLayers* layers)
+Integrator integrator_of(images::Integrator name)
 {
-    const auto same_size = [&](int width, int height) {
-        return width == world.camera.width() && height == world.camera.height();
-    };
-    if (!same_size(film.mean().width, film.mean().height) ||
-        (layers != nullptr && !same_size(layers->width(), layers->height())))
-        throw std::invalid_argument("film and camera differ in size");
-    while (film.batches() < options.batches) {
-        Batch batch(world, integrator, options, film.batches(), layers);
-        if (!batch.run(monitor)) return false;
-        film.add_batch(batch.mean());
-        if (layers != nullptr) layers->add_batch(*batch.layers(), options.batch_size);
-        if (monitor.batch) monitor.batch(batch.mean());
-        if (monitor.kept) monitor.kept(film);
+    switch (name) {
+    case images::Integrator::path:
+        return trace_path;
+    case images::Integrator::bdpt:
+        return trace_bidirectionally;
+    case images::Integrator::light:
+        return trace_light;
     }
-    return true;
+    throw std::invalid_argument("no integrator of that number");
 }
 
-std::optional<images::Image> render_batch(const World& world, Integrator integrator,
-                                          const RenderOptions& options, std::uint64_t number,
-                                          const Monitor& monitor)
+std::unique_ptr<images::Renderer> renderer(const World& world, Integrator integrator,
+                                           const images::RenderOptions& options, unsigned threads)
 {
-    Batch batch(world, integrator, options, number, nullptr);
-    if (!batch.run(monitor)) return std::nullopt;
-    return batch.mean();
+    return std::make_unique<RefRenderer>(world, integrator, options, threads);
+}
+
+std::unique_ptr<images::Renderer> renderer(const scenes::Scene& scene, int width, int height,
+                                           const images::RenderOptions& options, unsigned threads,
+                                           Builder builder)
+{
+    return std::make_unique<SceneRenderer>(scene, width, height, options, threads, builder);
 }
 
 } // namespace ref

@@ -2,6 +2,7 @@
 
 // What an integrator needs to know, and what it has to say.
 
+#include "images/render_options.h"
 #include "ref/transport/camera.h"
 #include "ref/transport/emitter.h"
 #include "ref/transport/random.h"
@@ -9,7 +10,6 @@
 #include "scenes/scene.h"
 
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -51,15 +51,10 @@ inline Ray camera_ray(const World& world, const SampleId& id)
     return ray;
 }
 
-inline constexpr int unlimited_edges = std::numeric_limits<int>::max();
+using images::Heuristic;
+using images::unlimited_edges;
 
-/// How strategies that can make the same path share it [Veach 1997, sec. 9.2].
-enum class Heuristic {
-    balance, // in proportion to their densities
-    power    // in proportion to the squares of their densities
-};
-
-/// How paths are made, the same for every integrator.
+/// How paths are made, the same for every integrator: the part of images::RenderOptions that it is for.
 struct PathOptions {
     std::uint64_t seed = 0;
     int max_edges = unlimited_edges; // of a path, the camera's included; at least 1

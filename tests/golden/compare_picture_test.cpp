@@ -15,9 +15,9 @@ using calibration::Noise;
 using calibration::SimulatedRenderer;
 using golden::Comparison;
 using golden::Verdict;
-using images_test::error_of;
 using golden_test::for_small_pictures;
 using images::Image;
+using images_test::error_of;
 
 class ComparePicture : public golden_test::SimulatedGolden {};
 

@@ -22,9 +22,9 @@ using golden::Golden;
 using golden::GoldenMaker;
 using golden::Method;
 using golden::Verdict;
-using images_test::error_of;
 using images::Image;
 using images::Rgb;
+using images_test::error_of;
 
 using golden_test::for_small_pictures;
 using golden_test::metadata;

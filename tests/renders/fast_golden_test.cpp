@@ -21,7 +21,7 @@ enum class Where { one_thread, two_threads, two_threads_deterministic, device };
 std::unique_ptr<gpu::Renderer> fast_renderer(const Plan& plan, gpu::Integrator integrator, Where where,
                                              std::uint64_t seed)
 {
-    gpu::RenderOptions options;
+    images::RenderOptions options;
     options.integrator = integrator;
     options.seed = seed;
     options.max_edges = plan.max_edges;

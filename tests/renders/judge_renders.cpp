@@ -114,12 +114,12 @@ public:
 private:
     [[nodiscard]] images::Image batch(const Kind& kind, std::uint64_t seed, std::uint64_t number) const
     {
-        ref::RenderOptions plan;
-        plan.path = {.seed = seed, .max_edges = 6};
-        plan.batch_size = kind.shift ? case_.batch_size / 4 : case_.batch_size;
-        plan.threads = std::max(1U, std::thread::hardware_concurrency());
+        images::RenderOptions options{.seed = seed, .max_edges = 6};
+        options.batch_size = kind.shift ? case_.batch_size / 4 : case_.batch_size;
+        const unsigned threads = std::max(1U, std::thread::hardware_concurrency());
         const ref::World& world = kind.shift ? fine_ : world_;
-        images::Image image = *ref::render_batch(world, kind.integrator, plan, number);
+        images::Image image =
+            ref::renderer(world, kind.integrator, options, threads)->render_batch(number)->mean;
         return kind.shift ? shifted(image) : image;
     }
 

@@ -23,7 +23,7 @@ std::vector<scenes::Scene> all_scenes()
 
 images::Image picture_of(const scenes::Scene& scene)
 {
-    gpu::RenderOptions options;
+    images::RenderOptions options;
     options.max_edges = 6;
     options.deterministic = true;
     return gpu::host_renderer(scene, 24, 16, options, 1)->render_batch(0, {})->mean;

@@ -35,11 +35,11 @@ inline Means means_by_ref(const scenes::Scene& scene, ref::Integrator integrator
                           std::uint64_t seed, const Samples& samples)
 {
     const ref::World world(scene, samples.size, samples.size);
-    const ref::RenderOptions options{
-        {.seed = seed, .max_edges = max_edges}, samples.batches, samples.batch_size, 1};
+    const auto renderer = ref::renderer(
+        world, integrator, {.seed = seed, .max_edges = max_edges, .batch_size = samples.batch_size});
     Means means;
     for (std::uint64_t i = 0; i < samples.batches; ++i)
-        means.push_back(mean_of(*ref::render_batch(world, integrator, options, i)));
+        means.push_back(mean_of(renderer->render_batch(i)->mean));
     return means;
 }
 
@@ -47,7 +47,7 @@ inline Means means_by_ref(const scenes::Scene& scene, ref::Integrator integrator
 inline Means means_by_host(const scenes::Scene& scene, gpu::Integrator integrator, int max_edges,
                            std::uint64_t seed, const Samples& samples)
 {
-    gpu::RenderOptions options;
+    images::RenderOptions options;
     options.integrator = integrator;
     options.max_edges = max_edges;
     options.seed = seed;
@@ -55,7 +55,7 @@ inline Means means_by_host(const scenes::Scene& scene, gpu::Integrator integrato
     const auto renderer = gpu::host_renderer(scene, samples.size, samples.size, options, 1);
     Means means;
     for (std::uint64_t i = 0; i < samples.batches; ++i) {
-        const gpu::Batch batch = *renderer->render_batch(i, {});
+        const images::Batch batch = *renderer->render_batch(i, {});
         EXPECT_EQ(batch.dropped.count, 0u);
         means.push_back(mean_of(batch.mean));
     }

@@ -39,7 +39,7 @@ TEST(EmitterChoiceInFloat, RefusesWhatItCannotShareOut)
 
 transport_test::Measured mean_by_host(const scenes::Scene& scene, gpu::Integrator integrator)
 {
-    gpu::RenderOptions options;
+    images::RenderOptions options;
     options.integrator = integrator;
     options.max_edges = 2;
     options.batch_size = 512;

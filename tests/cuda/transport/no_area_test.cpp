@@ -174,11 +174,11 @@ TEST(TrianglesWithoutArea, LeaveASkyOfOneExactlyOne)
     scenes::Scene scene = under_a_sky();
     for (std::size_t i = 0; i < 10000; ++i)
         scene.triangles.push_back({without_area(i % kinds_in_double, random), 0});
-    gpu::RenderOptions options;
+    images::RenderOptions options;
     options.integrator = gpu::Integrator::path;
     options.batch_size = 256;
     const auto renderer = gpu::host_renderer(scene, 32, 32, options, 2);
-    const gpu::Batch batch = *renderer->render_batch(0, {});
+    const images::Batch batch = *renderer->render_batch(0, {});
     for (const images::Rgb& pixel : batch.mean.pixels) EXPECT_EQ(pixel, images::Rgb(1.0));
 }
 

@@ -134,7 +134,7 @@ private:
 /// On the fast path.
 Sums pictures(const scenes::Scene& scene, gpu::Integrator integrator, std::uint32_t batch_size)
 {
-    gpu::RenderOptions options;
+    images::RenderOptions options;
     options.integrator = integrator;
     options.max_edges = 2;
     options.seed = 5;
@@ -142,7 +142,7 @@ Sums pictures(const scenes::Scene& scene, gpu::Integrator integrator, std::uint3
     const auto renderer = gpu::host_renderer(scene, size, size, options, 2);
     Sums sums;
     for (std::uint64_t i = 0; i < batches; ++i) {
-        const gpu::Batch batch = *renderer->render_batch(i, {});
+        const images::Batch batch = *renderer->render_batch(i, {});
         EXPECT_EQ(batch.dropped.count, 0u);
         sums.add(batch.mean);
     }
@@ -187,10 +187,9 @@ TEST(SpotLight, OfTheReferenceShedTheSame)
     for (const Spot& spot : {Spot{90, 8}, Spot{0.3, 0}, Spot{0.01, 0}, Spot{0.6, 1e6}}) {
         const scenes::Scene scene = spot_over_plane(spot);
         const ref::World world(scene, size, size);
-        const ref::RenderOptions options{{.seed = 5, .max_edges = 2}, batches, 4, 1};
+        const auto renderer = ref::renderer(world, ref::trace_path, {.seed = 5, .max_edges = 2});
         Sums sums;
-        for (std::uint64_t i = 0; i < batches; ++i)
-            sums.add(*ref::render_batch(world, ref::trace_path, options, i));
+        for (std::uint64_t i = 0; i < batches; ++i) sums.add(renderer->render_batch(i)->mean);
         EXPECT_LT(std::abs(sums.off()), bound * sums.standard_error() + 1e-6) << spot;
     }
 }

@@ -72,15 +72,13 @@ TEST_P(Splats, FallInTheSameOrderWhateverTheThreads)
     const ref::World world(scene, 40, 24);
     const auto film = [&](unsigned threads, std::uint64_t first_part) {
         images::Film result(40, 24);
-        ref::RenderOptions options{
-            .path = {.seed = 2, .max_edges = 5}, .batches = 4, .batch_size = 1, .threads = threads};
+        const auto renderer =
+            ref::renderer(world, GetParam(), {.seed = 2, .max_edges = 5, .batch_size = 1}, threads);
         if (first_part > 0) {
-            options.batches = first_part;
-            EXPECT_TRUE(render(world, GetParam(), options, result));
-            options.batches = 4;
+            EXPECT_TRUE(images::fill(result, first_part, *renderer));
             result = images::Film(result.mean(), result.squares(), result.batches());
         }
-        EXPECT_TRUE(render(world, GetParam(), options, result));
+        EXPECT_TRUE(images::fill(result, 4, *renderer));
         return result;
     };
     const images::Film one = film(1, 0);
@@ -90,19 +88,20 @@ TEST_P(Splats, FallInTheSameOrderWhateverTheThreads)
     EXPECT_FALSE(one.mean() == images::Image(40, 24));
 }
 
-// render() and a plain sum over the contributions are the same picture, up to the order of summation.
+// The renderer and a plain sum over the contributions are the same picture, up to the order of
+// summation.
 TEST_P(Splats, AreDividedBySamplesPerPixelOnce)
 {
     const scenes::Scene scene = transport_test::our_scene("cornell_diffuse");
     const ref::World world(scene, 20, 12);
     images::Film film(20, 12);
-    const ref::RenderOptions options{
-        .path = {.seed = 6, .max_edges = 4}, .batches = 2, .batch_size = 3, .threads = 2};
-    ASSERT_TRUE(render(world, GetParam(), options, film));
+    const ref::PathOptions options{.seed = 6, .max_edges = 4};
+    ASSERT_TRUE(images::fill(
+        film, 2, *ref::renderer(world, GetParam(), {.seed = 6, .max_edges = 4, .batch_size = 3}, 2)));
     images::Image sum(20, 12);
     std::vector<Contribution> out;
     for (std::uint32_t pixel = 0; pixel < 20 * 12; ++pixel)
-        for (std::uint32_t i = 0; i < 6; ++i) GetParam()(world, options.path, {6, pixel, i}, out);
+        for (std::uint32_t i = 0; i < 6; ++i) GetParam()(world, options, {6, pixel, i}, out);
     for (const Contribution& c : out) sum.pixels[c.pixel] += c.weight * c.value / 6.0;
     for (std::size_t i = 0; i < sum.pixels.size(); ++i)
         for (int channel = 0; channel < 3; ++channel)

@@ -29,7 +29,8 @@ images::Film rendered(ref::Integrator integrator, std::uint64_t batches, unsigne
                       images::Film film = {width, height})
 {
     const ref::World world(scene(), width, height);
-    EXPECT_TRUE(ref::render(world, integrator, {{.seed = 11}, batches, 2, threads}, film));
+    EXPECT_TRUE(images::fill(film, batches,
+                             *ref::renderer(world, integrator, {.seed = 11, .batch_size = 2}, threads)));
     return film;
 }
 
@@ -65,7 +66,8 @@ TEST(Render, DoesNotDependOnTheBuilderOfTheTreeEvenWhereTwoHitsAreEquallyFar)
     const auto rendered_by = [&](ref::Builder builder, ref::Integrator integrator) {
         const ref::World world(doubled, width, height, builder);
         images::Film film(width, height);
-        EXPECT_TRUE(ref::render(world, integrator, {{.seed = 11}, 2, 2, 2}, film));
+        EXPECT_TRUE(
+            images::fill(film, 2, *ref::renderer(world, integrator, {.seed = 11, .batch_size = 2}, 2)));
         return film;
     };
     for (const auto integrator : {ref::trace_path, ref::trace_bidirectionally}) {
@@ -88,8 +90,9 @@ TEST(Render, StopsSoonWithWholeBatchesOnly)
     for (const int limit : {1, 7, 20}) {
         images::Film film(width, height);
         std::atomic<int> asked = 0;
-        const ref::Monitor monitor{{}, [&] { return ++asked > limit; }};
-        EXPECT_FALSE(ref::render(world, splash, {{.seed = 11}, 5, 2, 2}, film, monitor));
+        const images::Monitor monitor{{}, [&] { return ++asked > limit; }};
+        EXPECT_FALSE(images::fill(
+            film, 5, *ref::renderer(world, splash, {.seed = 11, .batch_size = 2}, 2), monitor));
         EXPECT_LT(film.batches(), 5u);
         EXPECT_LE(asked, limit + 2); // each of two threads asks once more at most
         EXPECT_EQ(rendered(splash, 5, 2, film), whole);
@@ -101,12 +104,12 @@ TEST(Render, SaysHowFarItIs)
     const ref::World world(scene(), width, height);
     images::Film film(width, height);
     double last = 0.0;
-    EXPECT_TRUE(ref::render(world, splash, {{}, 3, 2, 2}, film,
-                            {[&](double done) {
-                                 EXPECT_GT(done, last);
-                                 last = done;
-                             },
-                             {}}));
+    EXPECT_TRUE(images::fill(film, 3, *ref::renderer(world, splash, {.batch_size = 2}, 2),
+                             {[&](double done) {
+                                  EXPECT_GT(done, last);
+                                  last = done;
+                              },
+                              {}}));
     EXPECT_EQ(last, 3.0);
 }
 
@@ -115,9 +118,8 @@ TEST(Render, ShowsTheFilmAfterEachBatch)
     const ref::World world(scene(), width, height);
     images::Film film(width, height);
     std::vector<images::Film> seen;
-    ref::Monitor monitor;
-    monitor.kept = [&](const images::Film& so_far) { seen.push_back(so_far); };
-    EXPECT_TRUE(ref::render(world, splash, {{.seed = 11}, 3, 2, 2}, film, monitor));
+    EXPECT_TRUE(images::fill(film, 3, *ref::renderer(world, splash, {.seed = 11, .batch_size = 2}, 2),
+                             {}, [&](const images::Batch& /*batch*/) { seen.push_back(film); }));
     ASSERT_EQ(seen.size(), 3u);
     EXPECT_EQ(seen[0], rendered(splash, 1, 1));
     EXPECT_EQ(seen[2], film);
@@ -153,18 +155,26 @@ TEST(Render, LeavesOutWhatIsNotFiniteAndSaysHowMuch)
     const ref::World world(scene(), width, height);
     for (const unsigned threads : {1u, 4u}) {
         images::Film film(width, height);
-        ref::StrategyLayers layers(width, height, 3, false);
+        images::StrategySums strategies;
         images::Dropped dropped;
         int reports = 0;
-        ref::Monitor monitor;
+        images::Monitor monitor;
         monitor.dropped = [&](const images::Dropped& of_batch) {
             dropped += of_batch;
             ++reports;
         };
-        ASSERT_TRUE(ref::render(world, sometimes_not_finite, {{.seed = 1}, 3, 2, threads}, film, monitor,
-                                &layers));
+        const auto renderer = ref::renderer(world, sometimes_not_finite,
+                                            {.seed = 1,
+                                             .max_edges = 3,
+                                             .batch_size = 2,
+                                             .strategies = images::StrategyPictures::unweighted},
+                                            threads);
+        ASSERT_TRUE(images::fill(film, 3, *renderer, monitor, [&](const images::Batch& batch) {
+            strategies.add(batch.strategies, 2);
+        }));
         for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(1.0));
-        EXPECT_EQ(layers.means().size(), 1u); // (0, 2) alone: the others found nothing that is finite
+        EXPECT_EQ(strategies.means().size(),
+                  1u); // (0, 2) alone: the others found nothing that is finite
         EXPECT_EQ(reports, 3);
         EXPECT_EQ(dropped.count, 3u * 2u * (width * height / 3));
         EXPECT_EQ(
@@ -178,8 +188,9 @@ TEST(Render, LeavesOutWhatIsNotFiniteAndSaysHowMuch)
 TEST(Render, NeverLeavesOutWhatIsNotFiniteWithoutAWord)
 {
     const ref::World world(scene(), width, height);
-    EXPECT_THROW(ref::render_batch(world, sometimes_not_finite, {{.seed = 1}, 1, 2, 2}, 0),
-                 std::runtime_error);
+    EXPECT_THROW(
+        ref::renderer(world, sometimes_not_finite, {.seed = 1, .batch_size = 2}, 2)->render_batch(0),
+        std::runtime_error);
 }
 
 TEST(Render, RefusesAWorldOfWhichProductsOfLengthsOverflow)
@@ -197,7 +208,8 @@ TEST(Render, PassesOnWhatAnIntegratorThrows)
                            std::vector<Contribution>& /*out*/) { throw std::runtime_error("broken"); };
     const ref::World world(scene(), width, height);
     images::Film film(width, height);
-    EXPECT_THROW(ref::render(world, broken, {{}, 3, 2, 2}, film), std::runtime_error);
+    EXPECT_THROW(images::fill(film, 3, *ref::renderer(world, broken, {.batch_size = 2}, 2)),
+                 std::runtime_error);
     EXPECT_EQ(film.batches(), 0u);
 }
 
@@ -205,7 +217,7 @@ TEST(Render, RefusesAFilmOfAnotherSize)
 {
     const ref::World world(scene(), width, height);
     images::Film film(height, width);
-    EXPECT_THROW(ref::render(world, splash, {}, film), std::invalid_argument);
+    EXPECT_THROW(images::fill(film, 64, *ref::renderer(world, splash, {})), std::invalid_argument);
 }
 
 // Pixels stand alone: a larger number of samples, another pixel or another order cannot change what a

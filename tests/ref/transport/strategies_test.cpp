@@ -1,6 +1,4 @@
-#include "ref/transport/bdpt.h"
 #include "ref/transport/render.h"
-#include "ref/transport/strategy_layers.h"
 #include "tests/ref/transport/scene_files.h"
 
 #include <gtest/gtest.h>
@@ -11,25 +9,27 @@
 namespace {
 
 using ref::Rgb;
-using ref::StrategyLayers;
 
 constexpr int width = 20;
 constexpr int height = 18; // more than one tile
 constexpr int max_edges = 4;
 
-StrategyLayers rendered(bool weighted, unsigned threads, images::Film& film)
+images::StrategySums rendered(bool weighted, unsigned threads, images::Film& film)
 {
     const scenes::Scene scene = transport_test::our_scene("cornell_glass");
-    const ref::World world(scene, width, height);
-    StrategyLayers layers(width, height, max_edges, weighted);
-    ref::render(world, ref::trace_bidirectionally, {{.seed = 4, .max_edges = max_edges}, 3, 4, threads},
-                film, {}, &layers);
-    return layers;
+    images::RenderOptions options{.seed = 4, .max_edges = max_edges};
+    options.strategies =
+        weighted ? images::StrategyPictures::weighted : images::StrategyPictures::unweighted;
+    const auto renderer = ref::renderer(scene, width, height, options, threads);
+    images::StrategySums sums;
+    images::fill(film, 3, *renderer, {},
+                 [&](const images::Batch& batch) { sums.add(batch.strategies, options.batch_size); });
+    return sums;
 }
 
 // Both are sums of the same terms, in another order: some 15 strategies, 12 samples, 20 splats a pixel
 // at most, all positive. 1e3 roundings are far more than there are.
-TEST(StrategyLayers, WeightedLayersAddUpToThePicture)
+TEST(Strategies, WeightedPicturesAddUpToTheWhole)
 {
     images::Film film(width, height);
     images::Image sum(width, height);
@@ -41,7 +41,7 @@ TEST(StrategyLayers, WeightedLayersAddUpToThePicture)
                         1e3 * 0x1p-53 * film.mean().pixels[i][channel]);
 }
 
-TEST(StrategyLayers, DoNotDependOnTheNumberOfThreads)
+TEST(Strategies, DoNotDependOnTheNumberOfThreads)
 {
     images::Film film(width, height);
     images::Film again(width, height);
@@ -49,7 +49,7 @@ TEST(StrategyLayers, DoNotDependOnTheNumberOfThreads)
 }
 
 // Directly seen light: both strategies find all of it alone; together they must share it.
-TEST(StrategyLayers, UnweightedLayersShowTheirStrategyAlone)
+TEST(Strategies, UnweightedPicturesShowTheirStrategyAlone)
 {
     images::Film film(width, height);
     images::Film again(width, height);
@@ -66,11 +66,16 @@ TEST(StrategyLayers, UnweightedLayersShowTheirStrategyAlone)
     EXPECT_FALSE(alone.contains({max_edges + 1, 1}));
 }
 
-TEST(StrategyLayers, RefusesLengthsThatWouldFillTheMemory)
+TEST(Strategies, RefusesLengthsThatWouldFillTheMemory)
 {
-    EXPECT_THROW(StrategyLayers(4, 4, ref::unlimited_edges, true), std::invalid_argument);
-    EXPECT_THROW(StrategyLayers(4, 4, 0, true), std::invalid_argument);
-    EXPECT_NO_THROW(StrategyLayers(4, 4, ref::most_edges_of_layers, true));
+    const scenes::Scene scene = transport_test::our_scene("cornell_glass");
+    const auto renderer = [&](int most_edges) {
+        return ref::renderer(
+            scene, 4, 4, {.max_edges = most_edges, .strategies = images::StrategyPictures::weighted});
+    };
+    EXPECT_THROW((void)renderer(images::unlimited_edges), std::invalid_argument);
+    EXPECT_THROW((void)renderer(0), std::invalid_argument);
+    EXPECT_NO_THROW((void)renderer(images::most_edges_of_strategies));
 }
 
 } // namespace

@@ -1,0 +1,45 @@
+#pragma once
+
+// What every renderer of this project can be asked for, whatever computes it. Plain data: kernels may
+// include it.
+
+#include <cstdint>
+#include <limits>
+
+namespace images {
+
+enum class Integrator {
+    path, // emission hits and next events, weighted against each other alone
+    bdpt, // all strategies
+    light // the light image alone, with weight 1
+};
+
+/// How strategies that can make the same path share it [Veach 1997, sec. 9.2].
+enum class Heuristic {
+    balance, // in proportion to their densities
+    power    // in proportion to the squares of their densities
+};
+
+/// Whether a batch also holds a picture of each strategy (s, t). Weighted, each path counts with its
+/// weight, and the pictures add up to the mean; unweighted, each shows what its strategy would if it
+/// were the only one.
+enum class StrategyPictures { none, weighted, unweighted };
+
+inline constexpr int unlimited_edges = std::numeric_limits<int>::max();
+
+/// With pictures of strategies: there are more than 150 of them, and each must fit in memory.
+inline constexpr int most_edges_of_strategies = 16;
+
+struct RenderOptions {
+    Integrator integrator = Integrator::bdpt;
+    Heuristic heuristic = Heuristic::balance; // of bidirectional path tracing
+    std::uint64_t seed = 0;
+    int max_edges = unlimited_edges; // of a path, the camera's included; at least 1
+    bool roulette = true;            // unbiased either way; with none, max_edges must bound the paths
+    std::uint32_t batch_size = 4;    // samples per pixel of a batch
+    /// With pictures, max_edges is at most most_edges_of_strategies.
+    StrategyPictures strategies = StrategyPictures::none;
+    bool deterministic = false; // the same bits every time, also where that costs time and memory
+};
+
+} // namespace images
