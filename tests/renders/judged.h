@@ -85,12 +85,12 @@ inline Judged judged(const std::string& name, ref::Integrator integrator,
 {
     const auto by_reference = [&](const Plan& plan) -> RenderBatch {
         const auto world = std::make_shared<ref::World>(plan.scene, plan.width, plan.height);
-        images::RenderOptions options;
-        options.batch_size = plan.batch_size;
-        options.max_edges = plan.max_edges;
+        images::RenderOptions render_options;
+        render_options.batch_size = plan.batch_size;
+        render_options.max_edges = plan.max_edges;
         return [=](std::uint64_t seed, std::uint64_t number) mutable {
-            options.seed = seed;
-            return ref::renderer(*world, integrator, options, 2)->render_batch(number)->mean;
+            render_options.seed = seed;
+            return ref::renderer(*world, integrator, render_options, 2)->render_batch(number)->mean;
         };
     };
     return judged(name, std::function<RenderBatch(const Plan&)>(by_reference), calls_itself, method,

@@ -5,6 +5,8 @@
 #include "tests/ref/transport/changed_scene.h"
 #include "tests/ref/transport/scene_files.h"
 
+#include <glm/geometric.hpp>
+
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>

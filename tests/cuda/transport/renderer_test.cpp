@@ -44,7 +44,7 @@ images::Image batch_of(const scenes::Scene& scene, const images::RenderOptions& 
     gpu::HostMemory memory;
     gpu::ThreadedExecutor executor(threads, 1);
     gpu::BatchRenderer renderer(memory, executor, {launch, launch, std::size_t{1} << 30}, scene, width,
-                                height, options);
+                                height, options, {});
     return renderer.render_batch(number, {})->mean;
 }
 
