@@ -48,12 +48,14 @@ SELDOM HD bool visible_by_halves(const SceneView<needs>& scene, const Vec3& a, c
 
 /// s = 0: z_{t-1} of the eye walk is on `emitter`, on the side that emits. `pdf_fwd`: with which the
 /// walk made it, per area or, of the environment, per solid angle. `pdf_rev_direction`: pdf_direction of
-/// `emitter` towards z_{t-2}. `alpha`, `previous_joinable` and `sums` are the walk's at z_{t-1}.
+/// `emitter` (emitter.h) towards z_{t-2}. `alpha`, `previous_joinable` and `sums` are the walk's at
+/// z_{t-1}.
 template <Needs needs, Integrator integrator, class Sink>
 HD void emission_hit(const PathOptions& options, const Emitter& emitter, int t, const Rgb& alpha,
                      float pdf_fwd, float pdf_rev_direction, bool previous_joinable,
                      const RunningSums& sums, Sink& sink)
 {
+    // For a light walk z_{t-1} would be y_0.
     const float pdf_position = pdf_emission_position<needs>(emitter);
     float weight = 0.0f;
     if constexpr (integrator == Integrator::path) {

@@ -7,8 +7,8 @@
 // Each walk, v_0, v_1, ..., carries sums over the strategies in which the other walk makes its vertices.
 // Of one vertex, pdf_fwd is the density with which the walk itself makes it, and pdf_rev that with which
 // the other walk would make it, coming the other way: both in the same measure, per area on a surface.
-// A quotient of the two has no unit. Where only the next vertex is missing for pdf_rev, its density per
-// solid angle is passed, and the walk has kept what makes the quotient of it.
+// So their quotient has no unit. The walk learns pdf_rev of v_{n-1} one vertex later, at v_n, as a
+// density per solid angle there; it has kept the factor that turns it into the quotient.
 
 #include "cuda/transport/material.h"
 
@@ -49,7 +49,7 @@ public:
     HD void advance(bool joinable, float pdf_rev_solid_angle, float survival, float geometry_over_pdf,
                     Heuristic heuristic)
     {
-        // pdf_rev / pdf_fwd of v_{n-1}, without and with roulette.
+        // The factor of B_{n-1} in (4): pdf_rev / pdf_fwd of v_{n-1}, without and with roulette.
         const float spared = raised(heuristic, pdf_rev_solid_angle * geometry_over_pdf_);
         const float not_spared = spared * raised(heuristic, survival);
         const float c = joinable ? 1.0f : 0.0f;
@@ -60,7 +60,8 @@ public:
     }
 
     /// B_n of equation (4), for a path in which v_n is the last vertex of this walk and the other walk
-    /// has `other_vertices` >= 0. The rest is as in advance.
+    /// has `other_vertices` >= 0. The rest is as in advance; of a v_n at infinity `pdf_rev_solid_angle`
+    /// is per area across the direction instead (emitter.h: pdf_direction).
     [[nodiscard]] HD float bracket(bool joinable, float pdf_rev_solid_angle, float survival,
                                    int other_vertices, Heuristic heuristic) const
     {
@@ -74,7 +75,8 @@ public:
     }
 
 private:
-    // A light walk (none at all for an emission hit) leaves the eye's sum up to four.
+    // bracket() chooses version 4 - other_vertices or version 0, and other_vertices is 0 for an emission
+    // hit.
     static constexpr int versions = bounces_without_roulette + 1;
 
     float brackets_[versions]; // B_{n-1}
