@@ -1,8 +1,17 @@
 #pragma once
 
-// Where light comes from: choosing an emitter, drawing light for a point (next event) and the beginning
-// of light walks. Densities are those of the reference; each is per area on a surface unless its name
-// says otherwise.
+// Where light comes from: choosing an emitter, and drawing light for a point (next event). How light
+// walks begin is in emission.h. Densities are those of the reference. Two of them have the measure of
+// their emitter:
+//
+//   emitter             pdf_position of y_0      pdf_direction from y_0
+//   triangle, sphere    per area                 per solid angle
+//   point, spot         a probability            per solid angle
+//   directional         a probability            per area across the direction
+//   environment         per solid angle          per area across the direction
+//
+// pdf_position contains the probability of choosing the emitter. Of an emitter at infinity, y_0 is a
+// direction. Areas are those of the scaled scene (scene_view.h).
 
 #include "cuda/transport/contacts.h"
 #include "cuda/transport/scene_view.h"
@@ -93,8 +102,7 @@ HD inline float pdf_solid_angle_cone(const Light& spot)
     return 1.0f / (2.0f * pi * spot.versine_cutoff);
 }
 
-/// With which the emitter and the point y_0 are drawn: per area on a surface, per solid angle for the
-/// environment, a probability for an emitter that is certain once it is chosen.
+/// pdf_position: the density with which the emitter and its y_0 are drawn. 0 for a surface of no area.
 template <Needs needs>
 HD float pdf_emission_position(const Emitter& emitter)
 {
@@ -104,7 +112,8 @@ HD float pdf_emission_position(const Emitter& emitter)
                                                     : emitter.probability;
 }
 
-/// The start of a walk from infinity is a uniform point of a disc that covers the scene.
+/// The start of a walk from infinity is a uniform point of a disc that covers the scene: the density per
+/// area of the disc.
 template <Needs needs>
 HD float pdf_area_disc(const SceneView<needs>& scene)
 {
@@ -117,14 +126,13 @@ struct IncidentLight {
     Vec3 wi;            // unit, from the point towards the light
     Rgb alpha;          // emitted towards the point, cosine at the light over squared distance
                         // included, over pdf_position
-    float geometry;     // turns a density per solid angle at `from` into one at y_0: cosine at the light
-                        // over squared distance; 1 at infinity
+    float geometry;     // turns a density per solid angle at `from` into one at y_0: the cosine at the
+                        // light over squared distance [Veach 1997, eq. 8.10]; 1 at infinity
     float pdf_position; // of y_0
-    float pdf_direction; // with which a light walk at y_0 goes towards `from`: per solid angle, and to
-                         // be multiplied by `spread` times the cosine at `from`
-    float spread;        // one over squared distance; 1 at infinity
-    SurfacePoint end;    // of a surface
-    Vec3 target;         // where the segment to be tested ends, unless at infinity
+    float pdf_rev_area_across; // with which a light walk at y_0 comes to `from`: per area across wi, so
+                               // that times the cosine at `from` it is per area of the surface there
+    SurfacePoint end;          // y_0, if it is on a surface
+    Vec3 target;               // where the segment to be tested ends, unless at infinity
 };
 
 /// Draws light for `from` by the first three numbers of `u`. False if there is none to come from there.
@@ -139,110 +147,46 @@ HD bool sample_incident(const SceneView<needs>& scene, const Vec3& from, const U
         light.end = sample_surface(scene, emitter, u[1], u[2]);
         const Vec3 d = light.end.position - from;
         const float distance2 = glm::dot(d, d);
-        light.spread = 1.0f / distance2;
-        light.wi = d * std::sqrt(light.spread);
+        const float inverse_distance2 = 1.0f / distance2;
+        light.wi = d * std::sqrt(inverse_distance2);
         const float cosine = -glm::dot(light.end.normal, light.wi);
         if (!(cosine > 0.0f) || !(light.pdf_position > 0.0f)) return false; // the dark side
-        light.geometry = cosine * light.spread;
-        light.pdf_direction = cosine * inverse_pi;
+        light.geometry = cosine * inverse_distance2;
+        light.pdf_rev_area_across = cosine * inverse_pi * inverse_distance2;
         light.alpha = emitter.emitted * (light.geometry / light.pdf_position);
-        light.target = end_at_surface(light.end, light.end.normal, distance2 * std::sqrt(light.spread));
+        light.target =
+            end_at_surface(light.end, light.end.normal, distance2 * std::sqrt(inverse_distance2));
         return true;
     }
     if constexpr (needs.other_lights) {
         const Light& source = scene.lights[light.emitter];
         light.geometry = 1.0f;
-        light.spread = 1.0f;
         light.alpha = emitter.emitted / light.pdf_position;
         if (emitter.kind == EmitterKind::environment) {
             light.wi = sample_sphere(u[1], u[2]);
-            light.pdf_direction = pdf_area_disc(scene);
+            light.pdf_rev_area_across = pdf_area_disc(scene);
         } else if (emitter.kind == EmitterKind::directional) {
             light.wi = -source.direction;
-            light.pdf_direction = pdf_area_disc(scene);
+            light.pdf_rev_area_across = pdf_area_disc(scene);
         } else {
             const Vec3 d = source.position - from;
             const float distance2 = glm::dot(d, d);
-            light.spread = 1.0f / distance2;
-            light.wi = d * std::sqrt(light.spread);
+            const float inverse_distance2 = 1.0f / distance2;
+            light.wi = d * std::sqrt(inverse_distance2);
             light.target = leave_end(scene, source.position, source.contacts, -d,
-                                     distance2 * std::sqrt(light.spread));
-            light.alpha *= light.spread;
-            light.pdf_direction = pdf_solid_angle_sphere;
+                                     distance2 * std::sqrt(inverse_distance2));
+            light.alpha *= inverse_distance2;
+            float pdf_solid_angle = pdf_solid_angle_sphere;
             if (emitter.kind == EmitterKind::spot) {
                 const float off_axis = versine(source.direction, -light.wi);
                 if (!(off_axis < source.versine_cutoff)) return false;
                 light.alpha *= spot_falloff(source, off_axis);
-                light.pdf_direction = pdf_solid_angle_cone(source);
+                pdf_solid_angle = pdf_solid_angle_cone(source);
             }
+            light.pdf_rev_area_across = pdf_solid_angle * inverse_distance2;
         }
     }
     return !is_black(light.alpha);
-}
-
-/// The beginning of a light walk.
-struct SampledEmission {
-    std::uint32_t emitter;
-    Ray ray;             // from y_0, or from far outside, into the scene
-    Rgb alpha;           // weight of the vertex that the ray will find
-    float pdf_direction; // of the ray: per solid angle, or per area across it from infinity
-    SurfacePoint end;    // y_0, of a surface; of a point or spot light the position alone
-    Vec3 towards;        // of one at infinity: the unit direction from the scene to it
-};
-
-/// Draws an emitter and a point of it by the first three numbers of `position`, a direction by the first
-/// two of `direction`. An emitter at infinity first draws its direction, then a point of a disc that
-/// covers the scene.
-template <Needs needs>
-HD SampledEmission sample_emission(const SceneView<needs>& scene, const Uniforms& position,
-                                   const Uniforms& direction)
-{
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    SampledEmission emission{};
-    emission.emitter = choose_emitter(scene, position[0]);
-    const Emitter& emitter = scene.emitters[emission.emitter];
-    if (is_surface<needs>(emitter)) {
-        emission.end = sample_surface(scene, emitter, position[1], position[2]);
-        const Vec3 w_local = sample_cosine_hemisphere(direction[0], direction[1]);
-        const Vec3 w = glm::normalize(Frame(emission.end.normal).to_world(w_local));
-        emission.ray = {leave_surface(emission.end, w), infinity, w};
-        emission.pdf_direction = glm::max(0.0f, glm::dot(emission.end.normal, w)) * inverse_pi;
-        // L cos / (p_A cos / pi); none where another emitter covers this one
-        if (sees_first(scene, emission.end, w))
-            emission.alpha = emitter.emitted * (pi * emitter.area / emitter.probability);
-        return emission;
-    }
-    if constexpr (needs.other_lights) {
-        const Light& light = scene.lights[emission.emitter];
-        if (at_infinity<needs>(emitter)) {
-            const bool everywhere = emitter.kind == EmitterKind::environment;
-            emission.towards = everywhere ? sample_sphere(position[1], position[2]) : -light.direction;
-            const Frame frame(emission.towards);
-            Vec3 disc(0.0f, 0.0f, 2.0f);
-            on_circle(std::sqrt(direction[0]), direction[1], disc.x, disc.y);
-            emission.ray = {scene.radius * frame.to_world(disc), infinity, -emission.towards};
-            emission.pdf_direction = pdf_area_disc(scene);
-        } else {
-            Vec3 w = sample_sphere(direction[0], direction[1]);
-            emission.pdf_direction = pdf_solid_angle_sphere;
-            emission.alpha = emitter.emitted;
-            if (emitter.kind == EmitterKind::spot) {
-                const float off_axis = direction[0] * light.versine_cutoff; // 1 - cos(theta)
-                Vec3 w_local(0.0f, 0.0f, 1.0f - off_axis);
-                on_circle(std::sqrt(off_axis * (2.0f - off_axis)), direction[1], w_local.x, w_local.y);
-                w = glm::normalize(Frame(light.direction).to_world(w_local));
-                emission.pdf_direction = pdf_solid_angle_cone(light);
-                // Of the angle as drawn: what w rounds to may lie outside of the cone, and none of the
-                // power may be lost by it.
-                emission.alpha *= spot_falloff(light, off_axis);
-            }
-            emission.end.position = light.position;
-            emission.ray = {leave_end(scene, light.position, light.contacts, w), infinity, w};
-        }
-        emission.alpha = (at_infinity<needs>(emitter) ? emitter.emitted : emission.alpha) /
-                         (pdf_emission_position<needs>(emitter) * emission.pdf_direction);
-    }
-    return emission;
 }
 
 } // namespace gpu

@@ -1,24 +1,14 @@
 #pragma once
 
-// Multiple importance sampling with a constant amount of work per connection: sums that a walk carries
-// along [Georgiev 2012, for the strategies of bidirectional path tracing].
+// Multiple importance sampling for bidirectional path tracing: the weight of every strategy, with a
+// constant amount of work per connection. docs/cuda-bdpt.md, section 2, derives it; (1) to (6) are its
+// equations. The sums are those of [Georgiev 2012], without vertex merging and with other letters.
 //
-// The literal weight (ref/transport/mis_weight.h computes it) of strategy s for a path x_0 ... x_k is
-// 1 / sum_j p_j / p_s, where p_j = c_j prod_{i<j} L_i prod_{i>=j} E_i: L_i and E_i are the densities of
-// vertex x_i as the light walk and the eye walk make it, and c_j is 1 if x_{j-1} and x_j can be joined,
-// else 0. Almost everything cancels: for j < s the quotient is prod_{j<=i<s} E_i / L_i. Summed from the
-// inside out, with s light vertices y_i = x_i,
-//
-//   S = E_{s-1}/L_{s-1} (c_{s-1} + E_{s-2}/L_{s-2} (c_{s-2} + E_{s-3}/L_{s-3} (... c_0))),
-//
-// and for j > s the same sum T over the eye vertices, with L and E in each other's place. The weight is
-// 1 / (1 + S + T). E_i depends on x_{i+1} and x_{i+2} alone, so that all but the two outermost factors
-// of S is known to the light walk before it is joined to anything: that is what it carries.
-//
-// Roulette makes one exception. E_i holds the chance that the eye walk went on from x_{i+1}, which is 1
-// for its first four bounces: so it does depend on how long the eye walk is, but only whether it is 1 or
-// not. A walk carries the sum in versions: in number m the m outermost chances are 1, in the order from
-// where it will be joined. Two walks choose each other's version by their own lengths.
+// Each walk, v_0, v_1, ..., carries sums over the strategies in which the other walk makes its vertices.
+// Of one vertex, pdf_fwd is the density with which the walk itself makes it, and pdf_rev that with which
+// the other walk would make it, coming the other way: both in the same measure, per area on a surface.
+// So their quotient has no unit. The walk learns pdf_rev of v_{n-1} one vertex later, at v_n, as a
+// density per solid angle there; it has kept the factor that turns it into the quotient.
 
 #include "cuda/transport/material.h"
 #include "images/render_options.h"
@@ -30,62 +20,135 @@ using images::Heuristic;
 /// Keeps sums finite: a share below the reciprocal does not show in a sum of floats.
 constexpr float largest_sum = 1e30f;
 
-/// What a quotient of densities counts in the sums: itself, or its square for the power heuristic.
-HD inline float shared(Heuristic heuristic, float quotient)
+/// A quotient of densities, to the exponent of the heuristic: 1, or 2 for the power heuristic
+/// [Veach 1997, secs. 9.2.2 and 9.2.4]. At most largest_sum.
+HD inline float raised(Heuristic heuristic, float quotient)
 {
     return glm::min(heuristic == Heuristic::power ? quotient * quotient : quotient, largest_sum);
 }
 
-/// What the walk carries when it is at its vertex v_n, n >= 1, of those before: for either walk, "own"
-/// means densities of the walk itself, "other" those of the other walk, were it to come this way.
+/// The sums that a walk carries to its vertex v_n, n >= 1: the bracket B_{n-1} of equation (4), in as
+/// many versions as roulette can tell apart. Version m is for a path in which roulette spares the m
+/// bounces of the other walk that come next, at v_{n-1}, v_{n-2}, ...: their chance to go on is 1.
 class RunningSums {
 public:
-    /// At v_1. `joinable` is c for the strategy that makes all of the path from the other end (from the
-    /// light's side 1 if the emitter can be hit; 0 from the eye's: a pinhole cannot). `back` turns the
-    /// other walk's density per solid angle at v_1 into its quotient by the own density at v_0: the
-    /// cosine at v_0 over squared distance and own density; 0 if v_0 cannot be hit.
-    HD RunningSums(bool joinable, float back, float own) : back_(back), own_(own)
+    /// At v_1. `joinable` is c_0: whether the other walk can make all of the path, v_0 included (true
+    /// for a light walk whose emitter can be hit; false for an eye walk, since nothing hits a pinhole).
+    /// `geometry_over_pdf`: see advance.
+    HD RunningSums(bool joinable, float geometry_over_pdf) : geometry_over_pdf_(geometry_over_pdf)
     {
-        for (float& version : inner_) version = joinable ? 1.0f : 0.0f;
+        for (float& version : brackets_) version = joinable ? 1.0f : 0.0f; // (4), B_0
     }
 
-    /// From v_n to v_{n+1}. `joinable`: whether v_{n-1} and v_n could be joined. `other`: density per
-    /// solid angle with which the other walk would go on from v_n to v_{n-1}, without the chance that it
-    /// does, which is `survival` unless it is 1. `back`, `own`: as above, for v_n and v_{n+1}.
-    HD void advance(bool joinable, float other, float survival, float back, float own,
+    /// From v_n to v_{n+1}. `joinable` is c_n: whether v_{n-1} and v_n can be joined.
+    /// `pdf_rev_solid_angle`: the density (sr^-1; of a delta lobe as in BsdfSample) with which the other
+    /// walk would go on from v_n to v_{n-1}, without roulette. `survival`: the chance that it goes on
+    /// from v_n, unless roulette spares it. `geometry_over_pdf`: turns such a density at v_{n+1} into
+    /// pdf_rev / pdf_fwd of v_n: the cosine at v_n over squared distance (1 at infinity) and over the
+    /// pdf_fwd of v_n; 0 if the other walk cannot come to v_n.
+    HD void advance(bool joinable, float pdf_rev_solid_angle, float survival, float geometry_over_pdf,
                     Heuristic heuristic)
     {
-        const float passed = shared(heuristic, other * back_);
-        const float ended = passed * shared(heuristic, survival);
-        const float join = joinable ? 1.0f : 0.0f;
-        for (int m = versions - 1; m > 0; --m)
-            inner_[m] = glm::min(join + passed * inner_[m - 1], largest_sum);
-        inner_[0] = glm::min(join + ended * inner_[0], largest_sum);
-        back_ = back;
-        own_ = own;
+        // The factor of B_{n-1} in (4): pdf_rev / pdf_fwd of v_{n-1}, without and with roulette.
+        const float spared = raised(heuristic, pdf_rev_solid_angle * geometry_over_pdf_);
+        const float not_spared = spared * raised(heuristic, survival);
+        const float c = joinable ? 1.0f : 0.0f;
+        for (int m = versions - 1; m > 0; --m) // (4); [Georgiev 2012, eqs. 34 and 35]
+            brackets_[m] = glm::min(c + spared * brackets_[m - 1], largest_sum);
+        brackets_[0] = glm::min(c + not_spared * brackets_[0], largest_sum); // (4)
+        geometry_over_pdf_ = geometry_over_pdf;
     }
 
-    /// S, or T, of a path in which v_n is the last of this walk, before it could be told what is beyond:
-    /// all but the outermost factor. `others`: how many vertices the other walk has; the rest as above.
-    [[nodiscard]] HD float without_last_factor(bool joinable, float other, float survival, int others,
-                                               Heuristic heuristic) const
+    /// B_n of equation (4), for a path in which v_n is the last vertex of this walk and the other walk
+    /// has `other_vertices` >= 0. The rest is as in advance; of a v_n at infinity `pdf_rev_solid_angle`
+    /// is per area across the direction instead (emitter.h: pdf_direction).
+    [[nodiscard]] HD float bracket(bool joinable, float pdf_rev_solid_angle, float survival,
+                                   int other_vertices, Heuristic heuristic) const
     {
-        const int free = bounces_without_roulette - others; // bounces beyond v_n that roulette spares
-        const float chance = free >= 0 ? 1.0f : survival;
-        const float passed = shared(heuristic, other * back_ * chance);
-        return glm::min((joinable ? 1.0f : 0.0f) + passed * inner_[free > 0 ? free : 0], largest_sum);
+        // At v_n the other walk would bounce for the other_vertices-th time.
+        const int spared_beyond = bounces_without_roulette - other_vertices; // spared bounces after that
+        const float chance = spared_beyond >= 0 ? 1.0f : survival;
+        const float quotient = raised(heuristic, pdf_rev_solid_angle * geometry_over_pdf_ * chance);
+        return glm::min((joinable ? 1.0f : 0.0f) +
+                            quotient * brackets_[spared_beyond > 0 ? spared_beyond : 0],
+                        largest_sum); // (4)
     }
-
-    /// The density with which the walk found v_n: per area, or per solid angle at infinity.
-    [[nodiscard]] HD float own() const { return own_; }
 
 private:
-    // A light walk (none at all for an emission hit) leaves the eye's sum up to four.
+    // bracket() chooses version 4 - other_vertices or version 0, and other_vertices is 0 for an emission
+    // hit.
     static constexpr int versions = bounces_without_roulette + 1;
 
-    float inner_[versions];
-    float back_;
-    float own_;
+    float brackets_[versions]; // B_{n-1}
+    float geometry_over_pdf_;  // of v_{n-1}
 };
+
+/// The last vertex of one walk, y_{s-1} or z_{t-1}, where the strategy joins it to the other walk.
+struct SubpathEnd {
+    float pdf_fwd; // > 0: per area; per solid angle at infinity; a probability where there is no extent
+    float pdf_rev; // given the last vertices of the other walk, in the measure of pdf_fwd
+    float bracket; // B of equation (4) at this vertex
+};
+
+/// S of the end of a light walk, or T of the end of an eye walk.
+HD inline float sum_of_others(Heuristic heuristic, const SubpathEnd& end)
+{
+    return raised(heuristic, end.pdf_rev / end.pdf_fwd) * end.bracket; // (3)
+}
+
+/// The weight of a strategy, 0 ... 1. S is the sum over the strategies with fewer light vertices, T over
+/// those with more.
+HD inline float weight_of_sums(float S, float T)
+{
+    return 1.0f / (1.0f + S + T); // (5); [Georgiev 2012, eq. 37]
+}
+
+/// s = 0, t >= 2: the eye walk hits an emitter at `z`. No light vertex, so S = 0.
+HD inline float emission_hit_weight(Heuristic heuristic, const SubpathEnd& z)
+{
+    return weight_of_sums(0.0f, sum_of_others(heuristic, z)); // (5); [Georgiev 2012, eqs. 42 and 43]
+}
+
+/// s = 1, t >= 2: `z` is joined to a fresh point of an emitter. `pdf_fwd`, `pdf_rev` are those of that
+/// point as in SubpathEnd; pdf_rev is 0 if the emitter cannot be hit, which is c_0 = 0.
+HD inline float next_event_weight(Heuristic heuristic, float pdf_fwd, float pdf_rev, const SubpathEnd& z)
+{
+    const float S = raised(heuristic, pdf_rev / pdf_fwd);  // (3) with B_0 = 1; [Georgiev 2012, eq. 44]
+    return weight_of_sums(S, sum_of_others(heuristic, z)); // (5); [Georgiev 2012, eq. 45]
+}
+
+/// s >= 1, t = 1: `y` is joined to the pinhole. Nothing hits a pinhole, so T = 0.
+HD inline float light_image_weight(Heuristic heuristic, const SubpathEnd& y)
+{
+    return weight_of_sums(sum_of_others(heuristic, y), 0.0f); // (5); [Georgiev 2012, eqs. 46 and 47]
+}
+
+/// s >= 2, t >= 2: `y` is joined to `z`.
+HD inline float inner_connection_weight(Heuristic heuristic, const SubpathEnd& y, const SubpathEnd& z)
+{
+    return weight_of_sums(sum_of_others(heuristic, y),
+                          sum_of_others(heuristic, z)); // (5); [Georgiev 2012, eqs. 40 and 41]
+}
+
+/// Path tracing has two strategies for a path, emission hit and next event, and balances them. The
+/// weight of the one with density `pdf`, where the other has `pdf_other`, both in the same measure.
+HD inline float balance_of_two(float pdf, float pdf_other)
+{
+    return weight_of_sums(0.0f, pdf_other / pdf); // (6); [Veach 1997, sec. 9.2.2]
+}
+
+/// Path tracing, s = 0: `pdf_hit` is that of the emission hit, > 0, and `pdf_next_event` that of a next
+/// event at the vertex before, per area of the emitter (per solid angle for the environment).
+/// `previous_joinable`: whether there is a next event at that vertex at all.
+HD inline float path_emission_hit_weight(bool previous_joinable, float pdf_hit, float pdf_next_event)
+{
+    return previous_joinable ? balance_of_two(pdf_hit, pdf_next_event) : 1.0f; // (6)
+}
+
+/// Path tracing, s = 1. The densities are as above; `pdf_hit` is 0 if the emitter cannot be hit.
+HD inline float path_next_event_weight(float pdf_hit, float pdf_next_event)
+{
+    return balance_of_two(pdf_next_event, pdf_hit); // (6)
+}
 
 } // namespace gpu

@@ -2,7 +2,7 @@
 
 // The kernel: one sample of one pixel, whole, by one thread.
 
-#include "cuda/transport/connect.h"
+#include "cuda/transport/bdpt.h"
 #include "cuda/transport/film.h"
 
 namespace gpu {

@@ -69,6 +69,15 @@ HD inline Vec3 sample_sphere(float u1, float u2)
 
 constexpr float pdf_solid_angle_sphere = inverse_pi / 4.0f;
 
+/// The density per area, at the point that a direction leads to, of a direction with density
+/// `pdf_solid_angle` [Veach 1997, eq. 8.10]. `cosine`: of the direction and the normal at that point.
+/// `inverse_distance2`: one over the squared distance. Where there is one density per area across the
+/// direction in place of a solid angle, as from infinity, the distance does not count: 1.
+HD inline float to_area(float pdf_solid_angle, float cosine, float inverse_distance2)
+{
+    return pdf_solid_angle * cosine * inverse_distance2;
+}
+
 /// The weights of the second and the third vertex for a uniform point of a triangle [Turk 1990].
 HD inline void sample_triangle(float u1, float u2, float& b1, float& b2)
 {

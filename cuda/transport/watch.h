@@ -1,9 +1,10 @@
 #pragma once
 
-// Sinks that want to see the walks themselves, and not only what they contribute. Tests do: what each
-// step made of the last can then be judged by itself. Where a sink does not watch, nothing is left of
-// it.
+// Sinks that are shown the walks themselves, and not only what they contribute. Tests need this, to
+// compare every step of a walk with the reference. For a sink that does not watch, these functions
+// compile to nothing.
 
+#include "cuda/transport/emission.h"
 #include "cuda/transport/subpath.h"
 
 namespace gpu {

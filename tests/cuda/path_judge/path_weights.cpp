@@ -41,10 +41,10 @@ double lobe_error(const scenes::Material& material, Vec3 wo, double wo_error, Ve
     return worst / middle + 16 * roundoff;
 }
 
-/// Shared by strategies that path tracing alone weighs: densities per solid angle.
-double balanced(double own, double other)
+/// The share of one of the two strategies of path tracing: densities per solid angle.
+double balanced(double pdf, double pdf_other)
 {
-    return own / (own + other);
+    return pdf / (pdf + pdf_other);
 }
 
 } // namespace

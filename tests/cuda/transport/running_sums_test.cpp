@@ -3,7 +3,6 @@
 
 #include "cuda/transport/mis_weight.h"
 
-#include "cuda/transport/connect.h"
 #include "tests/ref/transport/generators.h"
 
 #include <gtest/gtest.h>
@@ -17,18 +16,22 @@ namespace {
 
 using gpu::Heuristic;
 
-/// One walk from its end of a path: v_0 ... v_n, where v_n is joined to the last of the other walk.
+/// One walk from its end of a path: v_0 ... v_n, where v_n is joined to the last of the other walk. All
+/// densities of the walk itself are 1, so that those of the other walk are the quotients.
 struct HalfPath {
-    /// What the walk meets at v_i. Of v_0 only `joinable` and `back` count, of v_n all but `back`.
+    /// What the walk meets at v_i. Of v_0 only `joinable` and `geometry_over_pdf` count, of v_n all but
+    /// the latter.
     struct Step {
-        bool joinable;  // i = 0: the other walk can make all of the path; else: v_{i-1} and v_i can be
-                        // joined
-        float other;    // with which the other walk would go on from v_i to v_{i-1}, but for survival
-        float survival; // at v_i, once roulette plays
-        float back;     // turns `other` at v_{i+1} into the quotient of the densities of v_i
+        bool joinable;             // c_i: whether v_{i-1} and v_i can be joined; c_0: whether the other
+                                   // walk can make all of the path
+        float pdf_rev_solid_angle; // with which the other walk would go on from v_i to v_{i-1}, but for
+                                   // survival
+        float survival;            // at v_i, once roulette plays
+        float geometry_over_pdf;   // turns pdf_rev_solid_angle at v_{i+1} into the quotient of the
+                                   // densities of v_i
     };
     std::vector<Step> steps;
-    float last; // the quotient of the densities of v_n, other walk over own
+    float last; // the density of v_n for the other walk
     [[nodiscard]] int vertices() const { return static_cast<int>(steps.size()); }
 };
 
@@ -49,24 +52,24 @@ HalfPath any_half()
     return half;
 }
 
-/// The sum over the strategies in which the other walk, with `others` vertices now, has taken vertices
-/// of this one: prod_i (other density of v_i / own density of v_i) over the vertices taken, each to the
-/// power that the heuristic says.
-long double literal_sum(const HalfPath& half, int others, Heuristic heuristic)
+/// The sum over the strategies in which the other walk, which now has `other_vertices`, makes vertices
+/// of this one too: prod_i (pdf_rev of v_i / pdf_fwd of v_i) over those vertices, each quotient to the
+/// exponent of the heuristic.
+long double literal_sum(const HalfPath& half, int other_vertices, Heuristic heuristic)
 {
     const int n = half.vertices() - 1;
     const long double exponent = heuristic == Heuristic::power ? 2 : 1;
     long double sum = 0;
     long double product = 1;
-    for (int i = n; i >= 0; --i) { // v_i is taken as well; v_{i-1} becomes the last of this walk
+    for (int i = n; i >= 0; --i) { // the other walk makes v_i too; v_{i-1} is the last of this walk
         long double quotient = half.last;
         if (i < n) {
             const HalfPath::Step& next = half.steps[static_cast<std::size_t>(i) + 1];
-            quotient =
-                static_cast<long double>(next.other) * half.steps[static_cast<std::size_t>(i)].back;
-            // The other walk has `others` + n - i vertices when it comes to v_i: it bounced at each but
-            // its first, the last time at v_{i+1}, and that was its bounce number others + n - i - 1.
-            if (others + n - i - 1 > 4) quotient *= next.survival;
+            quotient = static_cast<long double>(next.pdf_rev_solid_angle) *
+                       half.steps[static_cast<std::size_t>(i)].geometry_over_pdf;
+            // The other walk has other_vertices + n - i vertices when it comes to v_i: it bounced at
+            // each but its first, and the last time, at v_{i+1}, was bounce other_vertices + n - i - 1.
+            if (other_vertices + n - i - 1 > 4) quotient *= next.survival;
         }
         product *= std::pow(quotient, exponent);
         if (half.steps[static_cast<std::size_t>(i)].joinable) sum += product;
@@ -74,19 +77,20 @@ long double literal_sum(const HalfPath& half, int others, Heuristic heuristic)
     return sum;
 }
 
-/// As a walk carries it (subpath.h) and as a connection completes it (connect.h).
-float running_sum(const HalfPath& half, int others, Heuristic heuristic)
+/// v_n, to be joined to a walk of `other_vertices`, by the sums that the walk carried to it.
+gpu::SubpathEnd end_of(const HalfPath& half, int other_vertices, Heuristic heuristic)
 {
     const auto& v = half.steps;
-    gpu::RunningSums sums(v[0].joinable, v[0].back, 1.0f);
+    gpu::RunningSums sums(v[0].joinable, v[0].geometry_over_pdf);
     for (std::size_t i = 1; i + 1 < v.size(); ++i)
-        sums.advance(v[i].joinable, v[i].other, v[i].survival, v[i].back, 1.0f, heuristic);
-    return gpu::shared(heuristic, half.last) *
-           sums.without_last_factor(v.back().joinable, v.back().other, v.back().survival, others,
-                                    heuristic);
+        sums.advance(v[i].joinable, v[i].pdf_rev_solid_angle, v[i].survival, v[i].geometry_over_pdf,
+                     heuristic);
+    return {1.0f, half.last,
+            sums.bracket(v.back().joinable, v.back().pdf_rev_solid_angle, v.back().survival,
+                         other_vertices, heuristic)};
 }
 
-/// Roundings per level of the nested sum: 1 in other * back, doubled and 1 more when squared; survival's
+/// Roundings per level of the nested sum: 1 in the quotient, doubled and 1 more when squared; survival's
 /// square 1, its product 1; the product with the inner sum 1, the sum 1: 7. The last quotient has 2, and
 /// the weight 3. All terms are positive, so relative errors add up and do not grow.
 double bound(int vertices)
@@ -103,9 +107,10 @@ RC_GTEST_PROP(RunningSums, AreTheLiteralSums, ())
 {
     const HalfPath half = any_half();
     const Heuristic heuristic = any_heuristic();
-    for (int others = 0; others <= 12; ++others) {
-        const long double expected = literal_sum(half, others, heuristic);
-        const long double error = running_sum(half, others, heuristic) - expected;
+    for (int other_vertices = 0; other_vertices <= 12; ++other_vertices) {
+        const long double expected = literal_sum(half, other_vertices, heuristic);
+        const long double error =
+            sum_of_others(heuristic, end_of(half, other_vertices, heuristic)) - expected;
         RC_ASSERT(std::abs(error) <= bound(half.vertices()) * expected);
     }
 }
@@ -113,13 +118,21 @@ RC_GTEST_PROP(RunningSums, AreTheLiteralSums, ())
 TEST(RunningSums, StayFinite)
 {
     for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
-        gpu::RunningSums sums(true, 1e25f, 1.0f);
-        for (int i = 0; i < 12; ++i) sums.advance(true, 1e25f, 1.0f, 1e25f, 1.0f, heuristic);
-        EXPECT_EQ(sums.without_last_factor(true, 1e25f, 1.0f, 2, heuristic), gpu::largest_sum);
+        gpu::RunningSums sums(true, 1e25f);
+        for (int i = 0; i < 12; ++i) sums.advance(true, 1e25f, 1.0f, 1e25f, heuristic);
+        EXPECT_EQ(sums.bracket(true, 1e25f, 1.0f, 2, heuristic), gpu::largest_sum);
         // So a quotient of 0, of what cannot be hit, leaves 0 and not NaN.
-        sums.advance(true, 0.0f, 1.0f, 1.0f, 1.0f, heuristic);
-        EXPECT_EQ(sums.without_last_factor(false, 0.0f, 1.0f, 2, heuristic), 0.0f);
+        sums.advance(true, 0.0f, 1.0f, 1.0f, heuristic);
+        EXPECT_EQ(sums.bracket(false, 0.0f, 1.0f, 2, heuristic), 0.0f);
     }
+}
+
+/// Whether `weight` is the share of a strategy with the sums S and T, of halves of at most `vertices`.
+bool is_share(float weight, long double S, long double T, int vertices)
+{
+    const long double expected = 1 / (1 + S + T);
+    // d(1 / (1 + x)) = x / (1 + x)^2 dx / x <= dx / x / (1 + x)
+    return std::abs(weight - expected) <= bound(vertices) * expected;
 }
 
 /// Both halves of a path, each with the number of vertices of the other.
@@ -130,11 +143,39 @@ RC_GTEST_PROP(RunningSums, GiveEveryStrategyItsShare, ())
     const Heuristic heuristic = any_heuristic();
     const long double S = literal_sum(y, z.vertices(), heuristic);
     const long double T = literal_sum(z, y.vertices(), heuristic);
-    const float weight =
-        gpu::weight(running_sum(y, z.vertices(), heuristic), running_sum(z, y.vertices(), heuristic));
-    const long double expected = 1 / (1 + S + T);
-    // d(1 / (1 + x)) = x / (1 + x)^2 dx / x <= dx / x / (1 + x)
-    RC_ASSERT(std::abs(weight - expected) <= bound(std::max(y.vertices(), z.vertices())) * expected);
+    const float weight = inner_connection_weight(heuristic, end_of(y, z.vertices(), heuristic),
+                                                 end_of(z, y.vertices(), heuristic));
+    RC_ASSERT(is_share(weight, S, T, std::max(y.vertices(), z.vertices())));
+}
+
+/// The strategies in which one walk has one vertex or none.
+RC_GTEST_PROP(RunningSums, GiveStrategiesAtTheEndsOfAPathTheirShare, ())
+{
+    const HalfPath v = any_half();
+    const Heuristic heuristic = any_heuristic();
+    const long double none = literal_sum(v, 0, heuristic);
+    const long double one = literal_sum(v, 1, heuristic);
+    const gpu::SubpathEnd joined_to_none = end_of(v, 0, heuristic);
+    const gpu::SubpathEnd joined_to_one = end_of(v, 1, heuristic);
+    RC_ASSERT(is_share(emission_hit_weight(heuristic, joined_to_none), 0, none, v.vertices()));
+    RC_ASSERT(is_share(light_image_weight(heuristic, joined_to_one), one, 0, v.vertices()));
+    const float pdf_rev = any_density();
+    const long double S = literal_sum({{{true, 0, 0, 0}}, pdf_rev}, v.vertices(), heuristic);
+    RC_ASSERT(
+        is_share(next_event_weight(heuristic, 1.0f, pdf_rev, joined_to_one), S, one, v.vertices()));
+}
+
+/// Path tracing's two strategies share every path that both can make.
+RC_GTEST_PROP(RunningSums, BalanceTheTwoStrategiesOfPathTracing, ())
+{
+    const float hit = any_density();
+    const float next_event = any_density();
+    RC_ASSERT(is_share(gpu::path_emission_hit_weight(true, hit, next_event), 0,
+                       static_cast<long double>(next_event) / hit, 1));
+    RC_ASSERT(is_share(gpu::path_next_event_weight(hit, next_event), 0,
+                       static_cast<long double>(hit) / next_event, 1));
+    RC_ASSERT(gpu::path_emission_hit_weight(false, hit, next_event) == 1.0f);
+    RC_ASSERT(gpu::path_next_event_weight(0.0f, next_event) == 1.0f);
 }
 
 } // namespace

@@ -1,0 +1,75 @@
+#pragma once
+
+// The eye walk: each of its vertices may be on an emitter, and is joined to a fresh point of an emitter
+// and to the vertices that the light walk kept.
+
+#include "cuda/transport/connect.h"
+#include "cuda/transport/watch.h"
+
+namespace gpu {
+
+/// From the eye through a random point of the pixel of `id`.
+template <Needs needs>
+HD Leg camera_leg(const SceneView<needs>& scene, const SampleId& id)
+{
+    const std::uint32_t column = id.pixel % scene.camera.width;
+    const std::uint32_t row = id.pixel / scene.camera.width;
+    const Uniforms u = uniforms(id, Event::camera);
+    const Vec3 direction =
+        scene.camera.direction(static_cast<float>(column) + u[0], static_cast<float>(row) + u[1]);
+    return {{leave_end(scene, scene.camera.eye, scene.eye_contacts, direction),
+             std::numeric_limits<float>::infinity(), direction},
+            scene.camera.eye,
+            false,
+            scene.camera.pdf_solid_angle(scene.camera.cosine(direction)),
+            0.0f};
+}
+
+/// `v`, which scatters, as connections need it. Path tracing needs no brackets.
+template <Integrator integrator>
+HD EyeVertex eye_vertex(Heuristic heuristic, const WalkVertex& v)
+{
+    EyeVertex z{v.n + 1,
+                v.point,
+                v.facing,
+                v.alpha * v.material.color * inverse_pi,
+                chance_of(v.material, v.n) * inverse_pi,
+                v.pdf_area,
+                {}};
+    if constexpr (integrator != Integrator::path)
+        for (int s = 1; s <= 5; ++s) z.brackets[s - 1] = v.bracket(s, heuristic);
+    return z;
+}
+
+/// Walks from the eye and joins every vertex to what there is: `kept` holds `count` vertices of the
+/// light walk.
+template <Needs needs, Integrator integrator, class Sink>
+HD void eye_subpath(const SceneView<needs>& scene, const PathOptions& options, const SampleId& id,
+                    const LightVertices& kept, int count, Sink& sink)
+{
+    walk(
+        scene, options, id, Transport::radiance, camera_leg(scene, id), false, Rgb(1.0f),
+        options.max_edges + 1,
+        [&](const WalkVertex& v) {
+            show_vertex(sink, Transport::radiance, v);
+            if (v.emitter != no_emitter && glm::dot(v.point.normal, v.wo) > 0.0f)
+                emission_hit<needs, integrator>(options, scene.emitters[v.emitter], v.n + 1, v.alpha,
+                                                v.pdf_area, v.pdf_rev_solid_angle(), v.previous_joinable,
+                                                v.sums, sink);
+            if (!scatters(v.material) || v.n == options.max_edges || scene.cumulative.empty()) return;
+            const EyeVertex z = eye_vertex<integrator>(options.heuristic, v);
+            next_event<needs, integrator>(scene, options, id, z, sink);
+            if constexpr (integrator != Integrator::path)
+                for (int s = 2; s <= count + 1 && s + v.n <= options.max_edges; ++s)
+                    inner_connection(scene, options, s, kept[s - 2], z, sink);
+        },
+        [&](const Leg& last, int n, const Rgb& alpha, bool previous_joinable, const RunningSums& sums) {
+            show_miss(sink, Transport::radiance, last);
+            if (scene.has_environment)
+                emission_hit<needs, integrator>(options, scene.emitters.back(), n + 1, alpha,
+                                                last.pdf_direction, pdf_area_disc(scene),
+                                                previous_joinable, sums, sink);
+        });
+}
+
+} // namespace gpu
