@@ -86,6 +86,7 @@ ExitStatus render(const RenderCommand& options)
     images::Dropped dropped;
     images::Film film = starting_film(options, metadata, dropped);
     const std::uint64_t batches_before = film.batches();
+    const std::uint64_t batches_in_all = options.samples / options.batch_size;
     const auto renderer = renderer_for(options, scene);
     images::StrategySums strategies;
     images::Layers batches; // those that are to be kept
@@ -103,7 +104,7 @@ ExitStatus render(const RenderCommand& options)
     bool complete = false;
     {
         Progress progress(scene.name, static_cast<double>(batches_before),
-                          static_cast<double>(options.samples / options.batch_size), options.quiet);
+                          static_cast<double>(batches_in_all), options.quiet);
         const images::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested,
                                       [&](const images::Dropped& of_batch) { dropped += of_batch; }};
         const auto added = [&](const images::Batch& batch) {
@@ -115,7 +116,7 @@ ExitStatus render(const RenderCommand& options)
                 written = Clock::now();
             }
         };
-        complete = images::fill(film, options.samples / options.batch_size, *renderer, monitor, added);
+        complete = images::fill(film, batches_in_all, *renderer, monitor, added);
     }
     const double seconds = seconds_since(start);
     const double cpu = cpu_seconds() - cpu_start;
