@@ -46,4 +46,12 @@ if command -v clang-format >/dev/null; then
     expect pass format.sh golden/a.h 'int f();'
     expect fail format.sh golden/a.h 'int   f( ) ;'
 fi
+if command -v nvcc >/dev/null; then
+    # Its own compiler, in place of the c++ that expect passes.
+    printf '#pragma once\n__device__ inline int f() { return threadIdx.x; }\n' >"$root/cuda/a.cuh"
+    bash "$here/device_headers.sh" "$root" nvcc >/dev/null 2>&1 || { echo 'device_headers.sh should pass'; failures=$((failures + 1)); }
+    printf '#pragma once\n__device__ std::string f();\n' >"$root/cuda/a.cuh"
+    ! bash "$here/device_headers.sh" "$root" nvcc >/dev/null 2>&1 || { echo 'device_headers.sh should fail'; failures=$((failures + 1)); }
+    rm "$root/cuda/a.cuh"
+fi
 exit $((failures > 0))
