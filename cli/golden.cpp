@@ -7,9 +7,9 @@
 #include "cli/renderer.h"
 #include "images/exr.h"
 #include "images/image_error.h"
+#include "images/whole_number.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -29,12 +29,11 @@ using Clock = std::chrono::steady_clock;
 std::uint64_t number_in(const images::Metadata& metadata, const std::string& key)
 {
     const std::string text = value_of(metadata, key);
-    std::uint64_t value = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || rest != text.data() + text.size())
+    const auto value = images::whole_number(text);
+    if (!value)
         throw std::invalid_argument("the golden's metadata has no number " + key + ", but '" + text +
                                     "'");
-    return value;
+    return *value;
 }
 
 std::string command_of(const GoldenCommand& options, const std::string& scene)

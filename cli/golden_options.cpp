@@ -2,8 +2,8 @@
 
 #include "cli/golden.h"
 #include "images/image_error.h"
+#include "images/whole_number.h"
 
-#include <charconv>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -40,12 +40,10 @@ void compare_samples(const GoldenCommand& options, const FoundGolden& found, Dif
 {
     const std::string there = value_of(found.metadata, "samples");
     const std::string asked = std::to_string(options.samples);
-    std::uint64_t number = 0;
-    const auto [rest, error] = std::from_chars(there.data(), there.data() + there.size(), number);
-    const bool is_number = error == std::errc() && rest == there.data() + there.size();
-    if (found.finished || !is_number)
+    const auto number = images::whole_number(there);
+    if (found.finished || !number)
         differences.compare("number of samples", there, asked, "-s");
-    else if (number > options.samples)
+    else if (*number > options.samples)
         differences.add("it has " + there + " samples already, more than " + asked + " (-s)");
 }
 

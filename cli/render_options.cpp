@@ -2,9 +2,9 @@
 
 #include "cli/builders.h"
 #include "cli/output_files.h"
+#include "images/whole_number.h"
 #include "images/write_image.h"
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -32,11 +32,7 @@ CLI::Validator one_of(const std::vector<std::string>& words)
 /// CLI11 takes "-1" for 2^64 - 1, and what is larger for that too.
 std::string expect_seed(const std::string& text)
 {
-    std::uint64_t seed = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-    return error == std::errc() && rest == text.data() + text.size()
-               ? ""
-               : "expected a whole number from 0 to 2^64 - 1, not " + text;
+    return images::whole_number(text) ? "" : "expected a whole number from 0 to 2^64 - 1, not " + text;
 }
 
 /// Throws unless each file can be written and is no other file of this command.

@@ -3,9 +3,9 @@
 #include "cli/render_options.h"
 #include "images/exr.h"
 #include "images/file_ending.h"
+#include "images/whole_number.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <stdexcept>
 
@@ -71,9 +71,12 @@ images::Film starting_film(const RenderCommand& options, const images::Metadata&
             *exr + ": holds " + std::to_string(picture.film->batches() * options.batch_size) +
             " samples per pixel already, more than -s " + std::to_string(options.samples));
     const std::string lacking = value_of(picture.metadata, "dropped");
-    const char* const end = lacking.data() + lacking.size();
-    if (!lacking.empty() && std::from_chars(lacking.data(), end, dropped.count).ptr != end)
-        throw std::invalid_argument(*exr + ": its dropped is '" + lacking + "', not a number");
+    if (!lacking.empty()) {
+        const auto count = images::whole_number(lacking);
+        if (!count)
+            throw std::invalid_argument(*exr + ": its dropped is '" + lacking + "', not a number");
+        dropped.count = *count;
+    }
     return std::move(*picture.film);
 }
 

@@ -2,6 +2,7 @@
 
 #include "images/image_error.h"
 #include "images/non_finite.h"
+#include "images/whole_number.h"
 
 #include <charconv>
 #include <cmath>
@@ -96,13 +97,10 @@ const std::string& find_text(const fs::path& path, const images::Metadata& metad
 std::uint64_t find_number(const fs::path& path, const images::Metadata& metadata, const char* key)
 {
     const std::string& text = find_text(path, metadata, key);
-    std::uint64_t number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    const auto number = images::whole_number(text);
     constexpr std::uint64_t largest = std::uint64_t{1} << 32;
-    if (error != std::errc() || rest != end || number > largest)
-        throw images::ImageError(path, "'" + text + "' is no " + key);
-    return number;
+    if (!number || *number > largest) throw images::ImageError(path, "'" + text + "' is no " + key);
+    return *number;
 }
 
 /// What two builds of this program must agree on to read each other's goldens.

@@ -3,6 +3,7 @@
 #include "images/exr_format.h"
 #include "images/image_error.h"
 #include "images/picture_size.h"
+#include "images/whole_number.h"
 
 #include <Iex.h>
 #include <ImfChannelList.h>
@@ -14,7 +15,6 @@
 #include <ImfStringAttribute.h>
 #include <ImfTestFile.h>
 
-#include <charconv>
 #include <cstring>
 #include <string_view>
 #include <utility>
@@ -222,14 +222,11 @@ std::optional<Film> read_state(const fs::path& path, Reader& reader)
     if (reader.channels().findChannel(channel_name(mean_state, 0) + ".hi") == nullptr)
         return std::nullopt;
     const auto* const text = string_attribute(reader.header(), batches_attribute);
-    std::uint64_t batches = 0;
     if (text == nullptr) throw ImageError(path, "has a film state but no number of batches");
-    const char* const end = text->value().data() + text->value().size();
-    const auto [rest, error] = std::from_chars(text->value().data(), end, batches);
-    if (error != std::errc() || rest != end)
-        throw ImageError(path, "'" + text->value() + "' is no number of batches");
+    const auto batches = whole_number(text->value());
+    if (!batches) throw ImageError(path, "'" + text->value() + "' is no number of batches");
     Image mean = reader.exact(mean_state);
-    return Film(std::move(mean), reader.exact(squares_state), batches);
+    return Film(std::move(mean), reader.exact(squares_state), *batches);
 }
 
 } // namespace
