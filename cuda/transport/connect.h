@@ -37,13 +37,15 @@ HD bool visible(const SceneView<needs>& scene, const Vec3& from, const Vec3& to)
     return !any_hit(scene.geometry, {from, 1.0f, to - from});
 }
 
-/// The same, with one ray from each place to `middle`. The end of a segment may lie beyond another
-/// surface close to its own; the beginning of a ray does not (clearance.h).
+/// The same, with one ray from each place. The end of a segment may lie beyond another surface close to
+/// its own; the beginning of a ray does not (clearance.h). Each ray goes past the middle, since a
+/// surface at its end does not stop it. `position`: of the surface that `a` has left; `d`: from there to
+/// that of b.
 template <Needs needs>
-SELDOM HD bool visible_by_halves(const SceneView<needs>& scene, const Vec3& a, const Vec3& b,
-                                 const Vec3& middle)
+SELDOM HD bool visible_from_both(const SceneView<needs>& scene, const Vec3& a, const Vec3& b,
+                                 const Vec3& position, const Vec3& d)
 {
-    return visible(scene, a, middle) && visible(scene, b, middle);
+    return visible(scene, a, position + 0.75f * d) && visible(scene, b, position + 0.25f * d);
 }
 
 /// s = 0: z_{t-1} of the eye walk is on `emitter`, on the side that emits. `pdf_fwd`: with which the
@@ -169,8 +171,7 @@ HD void inner_connection(const SceneView<needs>& scene, const PathOptions& optio
     if (is_black(value)) return;
     const Vec3 from = leave_to_side(z.point, z.facing);
     if (y.clearance < 0.0f) {
-        if (!visible_by_halves(scene, from, y.position - y.clearance * y.facing,
-                               z.point.position + 0.5f * d))
+        if (!visible_from_both(scene, from, y.position - y.clearance * y.facing, z.point.position, d))
             return;
     } else {
         const float clearance = y.clearance + clearance_per_length * distance2 * to_unit;

@@ -153,6 +153,18 @@ TEST(ThinThings, ALampThatCoversAnotherHidesIt)
             }
 }
 
+// A lamp close under the ceiling makes a segment to the ceiling be tested from both ends. What stands
+// exactly in the middle must not be missed by both.
+TEST(ThinThings, AShelfHalfWayToACeilingWithALampIsNotSeenThrough)
+{
+    scenes::Scene scene = room_with_covered_lamp(4e-6, 0.1, 0);
+    scene.triangles.resize(scene.triangles.size() - 2); // no second lamp
+    std::get<scenes::Emission>(scene.materials[1]).radiance = Rgb(1.0);
+    add_quad(scene, at(-1.5, -0.9, 0), 3.0 * x, 2.4 * y, 0);
+    scene.camera->eye = at(0, -1.2, -0.7);
+    expect_as_by_the_reference(scene, 5);
+}
+
 // Glass so close over a wall that a segment to the wall could end in it. (Closer than 1e-6 rays that
 // leave the glass begin beyond the wall: float_notices.h says so.)
 TEST(ThinThings, APaneCloseOverAWallIsNotLeftOut)
