@@ -89,6 +89,10 @@ Finding Judge::judge(const std::vector<Row>& rows, std::size_t functional, std::
         if (may_lack_rare_events(candidate, reference, *std::max_element(theirs.begin(), theirs.end()),
                                  options_.convict))
             finding.conclusive = false;
+        // No event in any batch: how rare it is in the candidate's estimator is not known, nor is its
+        // variance. Only a fresh render that has none either can confirm that light is missing.
+        if (candidate.variance == 0.0 && reference.variance > 0.0)
+            finding.test.p = std::max(finding.test.p, 2.0 * options_.convict);
     }
     if (candidate.count >= 2.0 && reference.count >= 2.0)
         finish(finding, mean_estimate(candidate), mean_estimate(reference));
