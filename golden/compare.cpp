@@ -186,7 +186,7 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
     comparison.false_alarm =
         options.dark +
         false_alarm_bound(golden.functionals, method, golden.reference.size(), options.stages, options);
-    if (decide_at_once(comparison, options)) return comparison;
+    if (decide_at_once(comparison, options, options.stages.size() > 1)) return comparison;
 
     const Finding suspicion = comparison.findings[*comparison.suspicion];
     const Judge judge(golden, method, options);

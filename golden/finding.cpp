@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -89,10 +90,8 @@ Finding Judge::judge(const std::vector<Row>& rows, std::size_t functional, std::
         if (may_lack_rare_events(candidate, reference, *std::max_element(theirs.begin(), theirs.end()),
                                  options_.convict))
             finding.conclusive = false;
-        // No event in any batch: how rare it is in the candidate's estimator is not known, nor is its
-        // variance. Only a fresh render that has none either can confirm that light is missing.
-        if (candidate.variance == 0.0 && reference.variance > 0.0)
-            finding.test.p = std::max(finding.test.p, 2.0 * options_.convict);
+        const bool alike = std::ranges::adjacent_find(ours, std::ranges::not_equal_to()) == ours.end();
+        finding.darker_without_noise = alike && reference.variance > 0.0 && finding.test.z < 0.0;
     }
     if (candidate.count >= 2.0 && reference.count >= 2.0)
         finish(finding, mean_estimate(candidate), mean_estimate(reference));

@@ -60,6 +60,9 @@ struct Finding {
     Interval interval;      // of the ratio
     double detectable;      // smallest relative error found with the stated power; NaN if not defined
     Reach reach = {};       // of the whole picture, by t tests
+    /// By t tests: all batches are alike and too dark. It may be that light is missing, or that no batch
+    /// has an event that is rare for this estimator; then the variance, 0, says nothing of it.
+    bool darker_without_noise = false;
 };
 
 /// "green of tile x 16..31, y 0..15 (matched)"

@@ -145,7 +145,7 @@ void convict(Comparison& comparison, const std::string& how)
     give_reason(comparison, say_suspicion(comparison) + how + ".");
 }
 
-bool decide_at_once(Comparison& comparison, const CompareOptions& options)
+bool decide_at_once(Comparison& comparison, const CompareOptions& options, bool can_render_again)
 {
     if (std::any_of(comparison.odd.begin(), comparison.odd.end(),
                     [](const OddPixels& odd) { return odd.wrong; })) {
@@ -159,7 +159,11 @@ bool decide_at_once(Comparison& comparison, const CompareOptions& options)
         acquit(comparison, options);
         return true;
     }
-    if (comparison.p < options.convict) {
+    const auto beyond_doubt = [&](const Finding& finding) {
+        return finding.conclusive && finding.adjusted_p < options.convict &&
+               !(can_render_again && finding.darker_without_noise);
+    };
+    if (std::ranges::any_of(comparison.findings, beyond_doubt)) {
         convict(comparison, ", beyond doubt");
         return true;
     }

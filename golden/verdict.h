@@ -23,7 +23,10 @@ void acquit(Comparison& comparison, const CompareOptions& options, const std::st
 void convict(Comparison& comparison, const std::string& how);
 
 /// The verdict of the first stage if it is already certain; false if the suspicion needs another look.
-bool decide_at_once(Comparison& comparison, const CompareOptions& options);
+/// `can_render_again`: a fresh stage follows. Then light that all batches lack alike is not missing
+/// beyond doubt (Finding::darker_without_noise).
+bool decide_at_once(Comparison& comparison, const CompareOptions& options,
+                    bool can_render_again = false);
 
 /// Decides on a picture that was inconclusive and has a few pixels far brighter than the golden's, by
 /// the comparison `without` them: FAIL if that is too bright all the same. Else it stays INCONCLUSIVE,

@@ -1,0 +1,78 @@
+// When one stage is enough for a verdict.
+
+#include "golden/verdict.h"
+
+#include "tests/golden/simulated_golden.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using golden::Comparison;
+using golden::Finding;
+using golden::Method;
+using golden::Verdict;
+
+class VerdictAtOnce : public golden_test::SimulatedGolden {
+protected:
+    /// One functional of 32 batches that all have this value, in units of the golden's mean.
+    static Finding judged(double factor)
+    {
+        const golden::CompareOptions options;
+        const golden::Judge judge(reference(), Method::welch, options);
+        golden::Candidate candidate(reference().functionals);
+        images::Image image = reference().mean;
+        for (images::Rgb& pixel : image.pixels) pixel *= factor;
+        for (int batch = 0; batch < 32; ++batch) candidate.add_batch(image);
+        return judge.judge(candidate.rows(), 0, 0);
+    }
+
+    /// The verdict on nothing but these findings.
+    static bool is_decided(const std::vector<Finding>& findings, bool can_render_again)
+    {
+        Comparison comparison;
+        comparison.findings = findings;
+        golden::summarise(comparison);
+        const bool decided = golden::decide_at_once(comparison, {}, can_render_again);
+        if (decided) {
+            EXPECT_EQ(comparison.verdict, Verdict::fail) << comparison.reason;
+        }
+        return decided;
+    }
+};
+
+TEST_F(VerdictAtOnce, BatchesThatAreAlikeAndTooDarkAreKnownAsSuch)
+{
+    for (const double factor : {0.0, 0.5, 0.9})
+        EXPECT_TRUE(judged(factor).darker_without_noise) << factor;
+    EXPECT_LT(judged(0.0).adjusted_p, 1e-8);
+    EXPECT_FALSE(judged(1.1).darker_without_noise);
+    golden::Candidate noisy = candidate({.everywhere = 0.5}, 32);
+    const golden::CompareOptions options;
+    const golden::Judge judge(reference(), Method::welch, options);
+    EXPECT_FALSE(judge.judge(noisy.rows(), 0, 0).darker_without_noise);
+}
+
+// Light tracing sees nothing of a tile in 32 batches, once in 40 right pictures.
+TEST_F(VerdictAtOnce, LightThatNoBatchHasIsLookedForInAFreshRender)
+{
+    EXPECT_FALSE(is_decided({judged(0.0)}, true));
+}
+
+// A picture that is given cannot be rendered again: what it lacks, it lacks.
+TEST_F(VerdictAtOnce, LightThatNoPictureHasIsMissing)
+{
+    EXPECT_TRUE(is_decided({judged(0.0)}, false));
+}
+
+TEST_F(VerdictAtOnce, TooBrightIsBeyondDoubtEitherWay)
+{
+    for (const bool can_render_again : {false, true}) {
+        EXPECT_TRUE(is_decided({judged(1.1)}, can_render_again));
+        EXPECT_TRUE(is_decided({judged(0.0), judged(1.1)}, can_render_again));
+    }
+}
+
+} // namespace
