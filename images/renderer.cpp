@@ -1,8 +1,17 @@
 #include "images/renderer.h"
 
 #include <stdexcept>
+#include <string>
 
 namespace images {
+
+void check(const RenderOptions& options)
+{
+    if (options.max_edges < 1) throw std::invalid_argument("a path has at least one edge");
+    if (options.strategies != StrategyPictures::none && options.max_edges > most_edges_of_strategies)
+        throw std::invalid_argument("a picture for each strategy needs paths of at most " +
+                                    std::to_string(most_edges_of_strategies) + " edges");
+}
 
 std::optional<Batch> Renderer::render_batch(std::uint64_t number, const Monitor& monitor)
 {

@@ -5,6 +5,7 @@
 
 #include "images/dropped.h"
 #include "images/film.h"
+#include "images/render_options.h"
 #include "images/strategies.h"
 
 #include <cstdint>
@@ -12,6 +13,10 @@
 #include <optional>
 
 namespace images {
+
+/// Throws std::invalid_argument for a path of no edge, and for pictures of strategies of paths that are
+/// longer than most_edges_of_strategies. For renderers to call.
+void check(const RenderOptions& options);
 
 /// How a caller watches a render and stops it. Any of them may be empty. `progress` and `stop` may be
 /// called from any of the render's threads, `progress` from one at a time.

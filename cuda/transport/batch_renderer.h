@@ -156,12 +156,8 @@ private:
 
     static images::RenderOptions checked(images::RenderOptions options)
     {
-        if (options.max_edges < 1) throw std::invalid_argument("a path has at least one edge");
+        images::check(options);
         options.max_edges = std::min(options.max_edges, most_edges);
-        if (options.strategies != images::StrategyPictures::none &&
-            options.max_edges > images::most_edges_of_strategies)
-            throw std::invalid_argument("a picture for each strategy needs paths of at most " +
-                                        std::to_string(images::most_edges_of_strategies) + " edges");
         return options;
     }
     /// One of all splats; with layers, one more for each strategy (s, 1).

@@ -202,10 +202,7 @@ public:
                 unsigned threads)
         : world_(world), integrator_(integrator), options_(options), threads_(threads)
     {
-        if (options.strategies != images::StrategyPictures::none &&
-            (options.max_edges < 1 || options.max_edges > images::most_edges_of_strategies))
-            throw std::invalid_argument("a picture for each strategy needs paths of at most " +
-                                        std::to_string(images::most_edges_of_strategies) + " edges");
+        images::check(options);
     }
 
 private:

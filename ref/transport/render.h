@@ -17,8 +17,7 @@ Integrator integrator_of(images::Integrator name);
 
 /// Renders `world`, which must outlive the renderer, by any function that is an integrator; that of the
 /// options is not used. The batches depend on world, integrator, options and seed alone, not on the
-/// number of `threads`. Throws std::invalid_argument for pictures of strategies of paths that are too
-/// long or of no edge. A batch throws what the integrator throws.
+/// number of `threads`. Throws what images::check does. A batch throws what the integrator throws.
 std::unique_ptr<images::Renderer> renderer(const World& world, Integrator integrator,
                                            const images::RenderOptions& options, unsigned threads = 1);
 
