@@ -5,16 +5,9 @@
 #include "images/image.h"
 #include "ref/transport/world.h"
 
-#include <gtest/gtest.h>
-
-#include <boost/math/distributions/students_t.hpp>
-
-#include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <thread>
 #include <vector>
 
 namespace transport_test {
@@ -34,49 +27,11 @@ struct EstimateOptions {
 
 /// One set of batches per class. Two threads; the result does not depend on them, because a batch is
 /// summed by one thread in sample order.
-inline std::vector<Batches> estimate(const ref::World& world, ref::Integrator integrator,
-                                     const EstimateOptions& options, int classes,
-                                     const Classify& classify)
-{
-    const int width = world.camera.width();
-    const int height = world.camera.height();
-    std::vector<Batches> result(
-        static_cast<std::size_t>(classes),
-        Batches(static_cast<std::size_t>(options.batches), images::Image(width, height)));
-    std::atomic<int> next = 0;
-    const auto work = [&] {
-        std::vector<ref::Contribution> contributions;
-        for (int batch = next++; batch < options.batches; batch = next++)
-            for (int i = 0; i < options.batch_size; ++i)
-                for (int pixel = 0; pixel < width * height; ++pixel) {
-                    contributions.clear();
-                    integrator(world, options.path,
-                               {options.path.seed, static_cast<std::uint32_t>(pixel),
-                                static_cast<std::uint32_t>(batch * options.batch_size + i)},
-                               contributions);
-                    for (const ref::Contribution& c : contributions) {
-                        const int kind = classify(c);
-                        if (kind < 0 || kind >= classes) continue;
-                        const double weight = options.weighted ? c.weight : 1.0;
-                        result[static_cast<std::size_t>(kind)][static_cast<std::size_t>(batch)]
-                            .pixels[c.pixel] +=
-                            c.value * weight / static_cast<double>(options.batch_size);
-                    }
-                }
-    };
-    {
-        const std::jthread helper(work);
-        work();
-    }
-    return result;
-}
+std::vector<Batches> estimate(const ref::World& world, ref::Integrator integrator,
+                              const EstimateOptions& options, int classes, const Classify& classify);
 
 /// Everything in one class.
-inline Batches estimate(const ref::World& world, ref::Integrator integrator,
-                        const EstimateOptions& options)
-{
-    return estimate(world, integrator, options, 1, [](const ref::Contribution&) { return 0; }).front();
-}
+Batches estimate(const ref::World& world, ref::Integrator integrator, const EstimateOptions& options);
 
 /// Pixels x0 <= x < x1, y0 <= y < y1.
 struct Region {
@@ -89,14 +44,7 @@ inline Region whole(const images::Image& image)
 }
 
 /// Mean of one channel over a region.
-inline double mean_over(const images::Image& image, const Region& region, int channel)
-{
-    double sum = 0.0;
-    for (int y = region.y0; y < region.y1; ++y)
-        for (int x = region.x0; x < region.x1; ++x)
-            sum += image.pixels[static_cast<std::size_t>(y * image.width + x)][channel];
-    return sum / ((region.x1 - region.x0) * (region.y1 - region.y0));
-}
+double mean_over(const images::Image& image, const Region& region, int channel);
 
 /// Mean and its standard error from independent equal batches.
 struct Measured {
@@ -104,67 +52,26 @@ struct Measured {
     int batches;
 };
 
-inline Measured measure(std::span<const double> values)
-{
-    const auto n = static_cast<double>(values.size());
-    double mean = 0.0;
-    for (const double v : values) mean += v / n;
-    double squares = 0.0;
-    for (const double v : values) squares += (v - mean) * (v - mean);
-    return {mean, std::sqrt(squares / (n * (n - 1.0))), static_cast<int>(values.size())};
-}
+Measured measure(std::span<const double> values);
 
-inline Measured measure(const Batches& batches, const Region& region, int channel)
-{
-    std::vector<double> values;
-    for (const images::Image& batch : batches) values.push_back(mean_over(batch, region, channel));
-    return measure(values);
-}
+/// The same of one channel over a region.
+Measured measure(const Batches& batches, const Region& region, int channel);
 
 /// Two-sided level of every single comparison below: with a few thousand of them in the suite, one false
 /// alarm in some hundred changes of seed. Seeds are fixed, so a passing test goes on passing.
 inline constexpr double alpha = 1e-6;
 
-inline double t_quantile(double degrees, double level)
-{
-    return boost::math::quantile(boost::math::complement(boost::math::students_t(degrees), level));
-}
+/// The value that Student's t of so many degrees of freedom exceeds with a probability of `level`.
+double t_quantile(double degrees, double level);
 
 /// The bias that a comparison with this standard error finds with a power of 99%.
-inline double detectable_bias(double standard_error, double degrees)
-{
-    return standard_error * (t_quantile(degrees, alpha / 2.0) + t_quantile(degrees, 0.01));
-}
+double detectable_bias(double standard_error, double degrees);
 
 /// Student's t test of a measured mean against the true one. Fails too if the test could not have found
 /// a bias of the fraction `specification` of the expected value: a test that sees nothing is no test.
-inline void expect_mean(const Measured& measured, double expected, double specification)
-{
-    const double degrees = measured.batches - 1.0;
-    EXPECT_LE(std::abs(measured.mean - expected),
-              measured.standard_error * t_quantile(degrees, alpha / 2.0))
-        << "mean " << measured.mean << " +- " << measured.standard_error << ", expected " << expected;
-    EXPECT_LE(detectable_bias(measured.standard_error, degrees), specification * std::abs(expected))
-        << "the test is too weak: standard error " << measured.standard_error << " of " << expected;
-}
+void expect_mean(const Measured& measured, double expected, double specification);
 
 /// Welch's t test of two measured means, with the same demand on its power.
-inline void expect_equal_means(const Measured& a, const Measured& b, double specification)
-{
-    const double va = a.standard_error * a.standard_error;
-    const double vb = b.standard_error * b.standard_error;
-    const double error = std::sqrt(va + vb);
-    if (error == 0.0) {
-        EXPECT_EQ(a.mean, b.mean);
-        return;
-    }
-    const double degrees =
-        (va + vb) * (va + vb) / (va * va / (a.batches - 1.0) + vb * vb / (b.batches - 1.0));
-    EXPECT_LE(std::abs(a.mean - b.mean), error * t_quantile(degrees, alpha / 2.0))
-        << a.mean << " +- " << a.standard_error << " against " << b.mean << " +- " << b.standard_error;
-    EXPECT_LE(detectable_bias(error, degrees),
-              specification * std::max(std::abs(a.mean), std::abs(b.mean)))
-        << "the test is too weak: standard error " << error << " of " << a.mean;
-}
+void expect_equal_means(const Measured& a, const Measured& b, double specification);
 
 } // namespace transport_test
