@@ -41,18 +41,18 @@ struct RayCost {
 RayCost measure(const ref::Geometry& geometry, const std::vector<ref::Ray>& rays)
 {
     if (rays.empty()) return {};
-    ref::Work work;
+    ref::TraversalCounts counts;
     std::uint64_t hits = 0;
     const Repetitions timed = repeat_until_precise(cpu_seconds, [&] {
-        work = {};
+        counts = {};
         hits = 0;
-        for (const ref::Ray& ray : rays) hits += intersect(geometry, ray, &work) ? 1 : 0;
+        for (const ref::Ray& ray : rays) hits += intersect(geometry, ray, &counts) ? 1 : 0;
     });
     if (hits > rays.size())
         throw std::logic_error("more hits than rays"); // keeps the loop from being dropped
     const auto count = static_cast<double>(rays.size());
     return {count / timed.seconds * 1e-6, timed.relative_standard_error,
-            static_cast<double>(work.nodes) / count, static_cast<double>(work.primitives) / count};
+            static_cast<double>(counts.nodes) / count, static_cast<double>(counts.primitives) / count};
 }
 
 /// As JSON has it: null where there is none.

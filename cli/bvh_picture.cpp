@@ -164,9 +164,9 @@ images::Image draw_visits(const ref::Geometry& geometry, double most, int width,
 {
     images::Image image(width, height);
     for_each_pixel(*geometry.scene().camera, width, height, [&](std::size_t pixel, const ref::Ray& ray) {
-        ref::Work work;
-        intersect(geometry, ray, &work);
-        const double x = 3 * static_cast<double>(work.nodes) / most;
+        ref::TraversalCounts counts;
+        intersect(geometry, ray, &counts);
+        const double x = 3 * static_cast<double>(counts.nodes) / most;
         image.pixels[pixel] = glm::clamp(images::Rgb(x, x - 1, x - 2), 0.0, 1.0);
     });
     return image;

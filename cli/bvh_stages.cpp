@@ -1,13 +1,13 @@
 #include "cli/bvh_stages.h"
 
-#include "cuda/device.h"
+#include "cuda/launch/device.h"
+#include "cuda/launch/device_lbvh.h"
 #include "cuda/parallel/threaded_executor.h"
-#include "cuda/trees/device_lbvh.h"
+#include "cuda/trees/bytes_moved.h"
 #include "cuda/trees/hploc.h"
 #include "cuda/trees/lbvh.h"
-#include "cuda/trees/sah_cost.h"
 #include "cuda/trees/scene_geometry.h"
-#include "cuda/trees/traffic.h"
+#include "cuda/trees/sah_cost.h"
 
 #include <nlohmann/json.hpp>
 
@@ -26,7 +26,7 @@ namespace cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Milliseconds = std::array<double, gpu::stage_names.size()>;
+using Milliseconds = std::array<double, fast::stage_names.size()>;
 
 double ms_between(Clock::time_point start, Clock::time_point end)
 {
@@ -42,7 +42,7 @@ struct CopyBlock {
 };
 
 /// Bytes that the memory of the host moves per second, reading and writing: the best of some copies.
-double host_bandwidth(gpu::ThreadedExecutor& executor)
+double host_bandwidth(fast::ThreadedExecutor& executor)
 {
     constexpr std::uint32_t blocks = 192;
     const std::vector<char> from(blocks * CopyBlock::size, 1);
@@ -72,21 +72,21 @@ struct Timed {
 };
 
 template <class Code>
-Timed time_on_host(gpu::ThreadedExecutor& executor, const std::vector<gpu::Box>& boxes, int repeats)
+Timed time_on_host(fast::ThreadedExecutor& executor, const std::vector<fast::Aabb>& boxes, int repeats)
 {
-    gpu::HostMemory memory;
-    gpu::Lbvh<Code> tree(memory, executor, static_cast<std::uint32_t>(boxes.size()));
+    fast::HostMemory memory;
+    fast::Lbvh<Code> tree(memory, executor, static_cast<std::uint32_t>(boxes.size()));
     tree.build(executor, boxes); // touches all memory once
-    gpu::throw_if_rejected(tree.first_rejected(), boxes);
-    gpu::Hploc clustered(memory, static_cast<std::uint32_t>(boxes.size()));
+    fast::throw_if_rejected(tree.first_rejected(), boxes);
+    fast::Hploc clustered(memory, static_cast<std::uint32_t>(boxes.size()));
     clustered.build(executor, boxes, tree);
     Timed timed{std::vector<Milliseconds>(static_cast<std::size_t>(repeats)),
-                gpu::sah_cost(std::as_const(tree).nodes()),
+                fast::sah_cost(std::as_const(tree).nodes()),
                 {},
-                gpu::sah_cost(clustered.nodes())};
+                fast::sah_cost(clustered.nodes())};
     for (Milliseconds& stages : timed.stages) {
         auto start = Clock::now();
-        tree.build(executor, boxes, [&](gpu::Stage stage) {
+        tree.build(executor, boxes, [&](fast::Stage stage) {
             const auto end = Clock::now();
             stages[static_cast<std::size_t>(stage)] = ms_between(start, end);
             start = end;
@@ -97,9 +97,10 @@ Timed time_on_host(gpu::ThreadedExecutor& executor, const std::vector<gpu::Box>&
     return timed;
 }
 
-std::vector<Milliseconds> time_on_device(const std::vector<gpu::Box>& boxes, int code_bits, int repeats)
+std::vector<Milliseconds> time_on_device(const std::vector<fast::Aabb>& boxes, int code_bits,
+                                         int repeats)
 {
-    gpu::DeviceLbvh tree(static_cast<std::uint32_t>(boxes.size()), code_bits);
+    fast::DeviceLbvh tree(static_cast<std::uint32_t>(boxes.size()), code_bits);
     tree.build(boxes);
     static_cast<void>(tree.download()); // rejects what is no box
     std::vector<Milliseconds> times(static_cast<std::size_t>(repeats));
@@ -116,19 +117,20 @@ double median(std::vector<double> values)
 
 /// The entry of one builder. A bandwidth of 0 is not known.
 nlohmann::json report_of(const std::vector<Milliseconds>& times, std::uint32_t primitives, int code_bits,
-                         const gpu::SortPasses& passes, double bandwidth, std::size_t cache)
+                         const fast::SortPasses& passes, double bandwidth, std::size_t cache)
 {
     nlohmann::json stages = nlohmann::json::array();
     double total_ms = 0;
     double total_bytes = 0;
     bool plausible = true;
-    for (std::size_t i = 0; i < gpu::stage_names.size(); ++i) {
+    for (std::size_t i = 0; i < fast::stage_names.size(); ++i) {
         std::vector<double> ms;
         for (const Milliseconds& one : times) ms.push_back(one[i]);
         const double typical = median(ms);
-        const double bytes = gpu::bytes_moved(static_cast<gpu::Stage>(i), primitives, code_bits, passes);
+        const double bytes =
+            fast::bytes_moved(static_cast<fast::Stage>(i), primitives, code_bits, passes);
         const double per_second = typical > 0 ? bytes / (1e-3 * typical) : 0;
-        nlohmann::json stage = {{"name", gpu::stage_names[i]}, {"ms", typical}, {"bytes", bytes}};
+        nlohmann::json stage = {{"name", fast::stage_names[i]}, {"ms", typical}, {"bytes", bytes}};
         if (bandwidth > 0) stage["percent_of_bandwidth"] = 100 * per_second / bandwidth;
         if (bandwidth > 0 && per_second > bandwidth && bytes > 2 * static_cast<double>(cache))
             plausible = false;
@@ -148,21 +150,21 @@ nlohmann::json report_of(const std::vector<Milliseconds>& times, std::uint32_t p
 nlohmann::json measure_stages(const scenes::Scene& scene, const std::string& device, unsigned threads,
                               int repeats)
 {
-    const std::vector<gpu::Box> boxes = gpu::boxes_of(scene);
+    const std::vector<fast::Aabb> boxes = fast::boxes_of(scene);
     const auto n = static_cast<std::uint32_t>(boxes.size());
     nlohmann::json report = {{"scene", scene.name}, {"primitives", n}, {"device", device}};
     nlohmann::json measured = nlohmann::json::array();
     if (device == "cuda") {
-        const gpu::Device found = gpu::find_device();
+        const fast::Device found = fast::find_device();
         if (!found.usable) throw std::runtime_error("--device cuda: " + found.description);
         report["described"] = found.description;
         report["bytes_per_second"] = found.bytes_per_second;
         for (const int bits : {30, 63})
             measured.push_back(report_of(time_on_device(boxes, bits, repeats), n, bits,
-                                         gpu::passes_on_device(bits), found.bytes_per_second,
+                                         fast::passes_on_device(bits), found.bytes_per_second,
                                          found.cache_bytes));
     } else {
-        gpu::ThreadedExecutor executor(threads);
+        fast::ThreadedExecutor executor(threads);
         const double bandwidth = host_bandwidth(executor);
         report["described"] = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
         report["bytes_per_second"] = bandwidth;
@@ -170,7 +172,7 @@ nlohmann::json measure_stages(const scenes::Scene& scene, const std::string& dev
             const Timed timed = bits == 30 ? time_on_host<std::uint32_t>(executor, boxes, repeats)
                                            : time_on_host<std::uint64_t>(executor, boxes, repeats);
             measured.push_back(
-                report_of(timed.stages, n, bits, gpu::passes_on_host(bits), bandwidth, host_cache()));
+                report_of(timed.stages, n, bits, fast::passes_on_host(bits), bandwidth, host_cache()));
             measured.back()["sah_cost"] = timed.sah_cost;
             measured.back()["hploc_ms"] = median(timed.clustering);
             measured.back()["hploc_sah_cost"] = timed.clustered_sah_cost;

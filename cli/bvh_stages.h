@@ -12,8 +12,8 @@ namespace cli {
 
 /// Builds trees over 30 and 63 bits `repeats` times on `device`, "host" (with `threads` threads) or
 /// "cuda". For each stage: the median time in ms that passed, the bytes that it must move
-/// (cuda/trees/traffic.h), and what share of the memory's bandwidth that is. "plausible" is false if a
-/// stage claims to have moved more than the memory can, while its data were too large for the caches:
+/// (cuda/trees/bytes_moved.h), and what share of the memory's bandwidth that is. "plausible" is false if
+/// a stage claims to have moved more than the memory can, while its data were too large for the caches:
 /// then some figure is wrong.
 /// On the host also the SAH cost of the tree and of the one clustered from it (cuda/trees/hploc.h).
 ///

@@ -7,7 +7,7 @@
 #include "cli/counts.h"
 #include "cli/golden.h"
 #include "cli/standard_output.h"
-#include "cuda/device.h"
+#include "cuda/launch/device.h"
 
 #include <csignal>
 #include <exception>
@@ -68,7 +68,7 @@ int main(int argc, char** argv)
     CLI::App program("Plumbline: a reference for tree builders and bidirectional path tracers",
                      "plumbline");
     program.set_version_flag(
-        "--version", [] { return "plumbline " PLUMBLINE_VERSION "\nGPU: " + gpu::describe_device(); });
+        "--version", [] { return "plumbline " PLUMBLINE_VERSION "\nGPU: " + fast::describe_device(); });
     program.require_subcommand(1);
     program.footer(
         "Exit status: 0 fine, 1 a check says no, 2 bad input, 3 cannot tell, 130 interrupted.");

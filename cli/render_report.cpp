@@ -42,7 +42,7 @@ Json requirements_json(const scenes::Scene& scene)
 }
 
 /// What the kernel can do besides triangles and Lambertian surfaces.
-Json kernel_json(const std::optional<gpu::Needs>& kernel)
+Json kernel_json(const std::optional<fast::Needs>& kernel)
 {
     if (!kernel) return nullptr;
     return {{"spheres", kernel->spheres},

@@ -39,8 +39,8 @@ struct RenderRun {
     const images::Film& film;
     const PictureMean& mean;
     const images::Dropped& dropped;
-    std::optional<gpu::Needs> kernel; // of the fast path; none for the reference
-    double samples;                   // of all pixels together, in this run
+    std::optional<fast::Needs> kernel; // of the fast path; none for the reference
+    double samples;                    // of all pixels together, in this run
     double seconds;
     double cpu_seconds;
 };

@@ -1,8 +1,8 @@
 #include "cli/renderer.h"
 
 #include "cli/builders.h"
-#include "cuda/transport/float_notices.h"
-#include "cuda/transport/renderer.h"
+#include "cuda/launch/renderer.h"
+#include "cuda/scene/float_notices.h"
 #include "ref/transport/render.h"
 
 #include <iostream>
@@ -19,20 +19,20 @@ std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, con
         return ref::renderer(scene, size.width, size.height, plan, options.threads,
                              builder_named(options.builder));
     if (!options.quiet)
-        for (const std::string& notice : gpu::float_notices(scene))
+        for (const std::string& notice : fast::float_notices(scene))
             std::cerr << shown_name(options.scene) << ": " << notice << '\n';
     if (options.device == "host")
-        return gpu::host_renderer(scene, size.width, size.height, plan, options.threads);
+        return fast::host_renderer(scene, size.width, size.height, plan, options.threads);
     try {
-        return gpu::device_renderer(scene, size.width, size.height, plan);
+        return fast::device_renderer(scene, size.width, size.height, plan);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(std::string("--device cuda: ") + error.what());
     }
 }
 
-std::optional<gpu::Needs> kernel_of(const images::Renderer& renderer)
+std::optional<fast::Needs> kernel_of(const images::Renderer& renderer)
 {
-    const auto* fast = dynamic_cast<const gpu::Renderer*>(&renderer);
+    const auto* fast = dynamic_cast<const fast::Renderer*>(&renderer);
     return fast == nullptr ? std::nullopt : std::optional(fast->needs());
 }
 

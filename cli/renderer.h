@@ -13,10 +13,10 @@ namespace cli {
 
 /// The renderer that the options ask for; the scene, which must have a camera, must outlive it. Says on
 /// stderr what floats cannot hold, unless options.quiet. Throws std::runtime_error where there is no
-/// such device, gpu::OutOfMemory, std::invalid_argument.
+/// such device, fast::OutOfMemory, std::invalid_argument.
 std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, const scenes::Scene& scene);
 
 /// What the kernels of the fast path can do; none for the reference.
-std::optional<gpu::Needs> kernel_of(const images::Renderer& renderer);
+std::optional<fast::Needs> kernel_of(const images::Renderer& renderer);
 
 } // namespace cli

@@ -11,7 +11,7 @@
 #include <cuda/atomic>
 #endif
 
-namespace gpu {
+namespace fast {
 
 /// Host only: what a thread calls before each of its atomic operations, if anything. Tests set it to
 /// decide there which thread goes on.
@@ -74,4 +74,4 @@ HD inline void take_least(std::uint64_t& least, std::uint64_t value)
 #endif
 }
 
-} // namespace gpu
+} // namespace fast

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace gpu {
+namespace fast {
 
 /// Owns `size()` elements with undefined contents, until they are written. The memory must outlive it.
 template <class T>
@@ -75,4 +75,4 @@ private:
     std::size_t size_;
 };
 
-} // namespace gpu
+} // namespace fast

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace gpu {
+namespace fast {
 
 /// Throws std::runtime_error unless `status` is success.
 inline void check(cudaError_t status)
@@ -17,4 +17,4 @@ inline void check(cudaError_t status)
     throw std::runtime_error(std::string("CUDA: ") + cudaGetErrorString(status));
 }
 
-} // namespace gpu
+} // namespace fast

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace gpu {
+namespace fast {
 
 /// Elements 0 to count - 1 in `chunks` (at least 1) pieces of equal size, but for the last ones.
 struct Chunks {
@@ -20,4 +20,4 @@ struct Chunks {
     [[nodiscard]] HD std::uint32_t end(std::uint32_t chunk) const { return begin(chunk + 1); }
 };
 
-} // namespace gpu
+} // namespace fast

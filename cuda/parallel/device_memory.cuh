@@ -5,7 +5,7 @@
 #include "cuda/parallel/check.cuh"
 #include "cuda/parallel/memory.h"
 
-namespace gpu {
+namespace fast {
 
 /// Blocks are given out and taken back in the order of a stream: what is queued before a release may
 /// still use the block.
@@ -52,4 +52,4 @@ private:
     cudaStream_t stream_;
 };
 
-} // namespace gpu
+} // namespace fast

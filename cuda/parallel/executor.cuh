@@ -7,7 +7,7 @@
 
 #include <cuda_runtime.h>
 
-namespace gpu {
+namespace fast {
 
 constexpr std::uint32_t block_size = 256;
 
@@ -39,4 +39,4 @@ private:
     cudaStream_t stream_;
 };
 
-} // namespace gpu
+} // namespace fast

@@ -9,7 +9,7 @@
 #include <concepts>
 #include <cstdint>
 
-namespace gpu {
+namespace fast {
 
 template <class K>
 concept Kernel = std::copy_constructible<K> && requires(const K& kernel, std::uint32_t index)
@@ -55,4 +55,4 @@ public:
     [[nodiscard]] static std::uint32_t width() { return 1; }
 };
 
-} // namespace gpu
+} // namespace fast

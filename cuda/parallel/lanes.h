@@ -1,8 +1,8 @@
 #pragma once
 
-// Four floats that are computed with at the same time. On the host they are one vector of the processor
-// (by the extension that g++ and clang share, which needs no header and runs on every processor); for
-// nvcc, which gives every thread one float at a time anyway, an array.
+// Four floats, added, multiplied and compared lane by lane. On the host they are one vector register (by
+// the vector extension of g++ and clang, which runs on every processor). For nvcc they are an array,
+// because on a GPU each thread computes one float at a time.
 
 #include "cuda/parallel/host_device.h"
 
@@ -11,14 +11,14 @@
 #include <cstdint>
 #include <cstring>
 
-namespace gpu {
+namespace fast {
 
-/// Sorts behind all other keys.
+/// The key of a lane that is left out; it sorts behind all other keys.
 constexpr std::uint32_t not_ordered = 0xffff'ffff;
 
 #if defined(__CUDACC__)
 
-/// Whether four lanes take no longer than one.
+/// Whether four lanes take as long as one.
 constexpr bool lanes_at_once = false;
 
 struct alignas(16) Lanes { // in memory the same as the other
@@ -70,7 +70,7 @@ HD inline Lanes operator-(const Lanes& a)
 }
 
 /// See below.
-HD inline void sortable(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[4])
+HD inline void sort_keys(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[4])
 {
     for (std::uint32_t i = 0; i < 4; ++i) {
         const bool ordered = near[static_cast<int>(i)] <= far[static_cast<int>(i)];
@@ -80,7 +80,7 @@ HD inline void sortable(const Lanes& near, const Lanes& far, std::uint32_t (&key
 }
 
 /// See below.
-HD inline std::uint32_t not_negative(const Lanes& a)
+HD inline std::uint32_t non_negative_mask(const Lanes& a)
 {
     std::uint32_t bits = 0;
     for (int i = 0; i < 4; ++i) bits |= a[i] >= 0 ? 1u << i : 0u;
@@ -112,11 +112,11 @@ inline Lanes smaller(const Lanes& a, const Lanes& b)
 
 using Words = std::uint32_t __attribute__((vector_size(16)));
 
-/// For every lane a number that sorts like `near` (which must not be negative: then its bits sort like
-/// itself), with the number of the lane in its lowest two bits; not_ordered, unless near <= far, of
-/// which neither may be NaN. Without those two bits it is the bits of `near`, or of a float up to 3 ulps
-/// below it.
-inline void sortable(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[4])
+/// Keys to sort lanes by `near` in ascending order. The key of a lane is the bits of its `near` with the
+/// lane's number in the lowest two bits; not_ordered where near > far. The bits of floats >= 0 sort like
+/// the floats: `near` must be >= 0, and neither may be NaN. With those two bits cleared, a key is a
+/// float that equals `near` or lies at most 3 ulps below it.
+inline void sort_keys(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[4])
 {
     const Words named = (std::bit_cast<Words>(near) & ~3u) | Words{0, 1, 2, 3};
     const Words sorted = named | std::bit_cast<Words>(near > far);
@@ -124,7 +124,7 @@ inline void sortable(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[
 }
 
 /// Bit i is set where a[i] >= 0: not where it is NaN.
-inline std::uint32_t not_negative(const Lanes& a)
+inline std::uint32_t non_negative_mask(const Lanes& a)
 {
     const Words bits = std::bit_cast<Words>(a >= Lanes{0, 0, 0, 0}) & Words{1, 2, 4, 8};
     const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(bits);
@@ -140,4 +140,4 @@ HD inline Lanes magnitude(const Lanes& a)
     return larger(a, -a);
 }
 
-} // namespace gpu
+} // namespace fast

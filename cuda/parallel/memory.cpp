@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-namespace gpu {
+namespace fast {
 
 namespace {
 
@@ -63,4 +63,4 @@ std::size_t HostMemory::free_bytes() const
            static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-} // namespace gpu
+} // namespace fast

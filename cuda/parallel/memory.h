@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace gpu {
+namespace fast {
 
 /// Says which memory, how many bytes were wanted and how many are free. Nothing is lost by it: memory
 /// held before is still held, and what is given back can be had again.
@@ -53,4 +53,4 @@ private:
     [[nodiscard]] std::string name() const override { return "host memory"; }
 };
 
-} // namespace gpu
+} // namespace fast

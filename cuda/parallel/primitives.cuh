@@ -12,7 +12,7 @@
 
 #include <span>
 
-namespace gpu {
+namespace fast {
 
 template <class T, class Map, class Combine>
 std::size_t reduce_scratch(const CudaExecutor& executor, std::uint32_t count, const Map& map,
@@ -60,4 +60,4 @@ void radix_sort(CudaExecutor& executor, Alternating<Key>& keys, Alternating<Valu
     if (v.Current() != values.current.data()) values.swap();
 }
 
-} // namespace gpu
+} // namespace fast

@@ -13,7 +13,7 @@
 #include <span>
 #include <utility>
 
-namespace gpu {
+namespace fast {
 
 /// An array that is valid, and room for as many elements beside it.
 template <class T>
@@ -124,4 +124,4 @@ void radix_sort(E& executor, Alternating<Key>& keys, Alternating<Value>& values,
     }
 }
 
-} // namespace gpu
+} // namespace fast

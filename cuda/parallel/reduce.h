@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <span>
 
-namespace gpu {
+namespace fast {
 
 /// Kernel over chunks: combines map(i) for the elements i of a chunk.
 template <class T, class Map, class Combine>
@@ -65,4 +65,4 @@ void map_reduce(E& executor, std::uint32_t count, const Map& map, const Combine&
     executor(1, ReducePartial<T, Combine>{partial, combine, neutral, result});
 }
 
-} // namespace gpu
+} // namespace fast

@@ -6,7 +6,7 @@
 
 #include <cuda_runtime.h>
 
-namespace gpu {
+namespace fast {
 
 class Stream {
 public:
@@ -20,4 +20,4 @@ private:
     cudaStream_t stream_{};
 };
 
-} // namespace gpu
+} // namespace fast

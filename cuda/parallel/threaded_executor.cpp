@@ -1,6 +1,6 @@
 #include "cuda/parallel/threaded_executor.h"
 
-namespace gpu {
+namespace fast {
 
 ThreadedExecutor::ThreadedExecutor(std::uint32_t threads, std::uint32_t most_per_block)
     : most_per_block_(std::max(most_per_block, 1u))
@@ -40,4 +40,4 @@ void ThreadedExecutor::serve(std::uint32_t thread)
     }
 }
 
-} // namespace gpu
+} // namespace fast

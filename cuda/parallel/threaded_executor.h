@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace gpu {
+namespace fast {
 
 /// Runs every kernel on the same `threads` threads (the calling one is the first of them), which sleep
 /// in between. Blocks of at most `most_per_block` neighbouring indices are dealt to them in turn: with
@@ -56,4 +56,4 @@ private:
     std::atomic<std::uint32_t> busy_ = 0; // workers that have not finished the present round
 };
 
-} // namespace gpu
+} // namespace fast

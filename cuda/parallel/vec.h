@@ -15,7 +15,7 @@
 #pragma nv_diagnostic pop
 #endif
 
-namespace gpu {
+namespace fast {
 
 using Vec3 = glm::vec3;
 
@@ -24,4 +24,4 @@ HD inline float max_component(const Vec3& v)
     return glm::max(glm::max(v.x, v.y), v.z);
 }
 
-} // namespace gpu
+} // namespace fast

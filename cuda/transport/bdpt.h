@@ -6,7 +6,7 @@
 #include "cuda/transport/eye_subpath.h"
 #include "cuda/transport/light_subpath.h"
 
-namespace gpu {
+namespace fast {
 
 /// Sends everything that sample `id` contributes to any pixel to `sink`. `kept` is memory for the light
 /// walk of this sample alone; only Integrator::bdpt uses it.
@@ -21,4 +21,4 @@ HD void trace_sample(const SceneView<needs>& scene, const PathOptions& options, 
         eye_subpath<needs, integrator>(scene, options, id, kept, count, sink);
 }
 
-} // namespace gpu
+} // namespace fast

@@ -6,7 +6,7 @@
 
 #include "cuda/parallel/vec.h"
 
-namespace gpu {
+namespace fast {
 
 struct Camera {
     Vec3 eye;
@@ -46,4 +46,4 @@ struct Camera {
     }
 };
 
-} // namespace gpu
+} // namespace fast

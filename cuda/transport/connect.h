@@ -14,7 +14,7 @@
 #include "cuda/transport/light_vertex.h"
 #include "cuda/transport/subpath.h"
 
-namespace gpu {
+namespace fast {
 
 /// An eye vertex z_{t-1} that can be joined: on a Lambertian surface.
 struct EyeVertex {
@@ -34,7 +34,7 @@ struct EyeVertex {
 template <Needs needs>
 HD bool visible(const SceneView<needs>& scene, const Vec3& from, const Vec3& to)
 {
-    return !any_hit(scene.geometry, {from, 1.0f, to - from});
+    return !occluded(scene.geometry, {from, 1.0f, to - from});
 }
 
 /// The same, with one ray from each place. The end of a segment may lie beyond another surface close to
@@ -88,7 +88,7 @@ HD void next_event(const SceneView<needs>& scene, const PathOptions& options, co
             : lies_on(scene, scene.lights[light.emitter].contacts, z.point.primitive))
         return;
     if (at_infinity<needs>(emitter)
-            ? any_hit(scene.geometry, {from, std::numeric_limits<float>::infinity(), light.wi})
+            ? occluded(scene.geometry, {from, std::numeric_limits<float>::infinity(), light.wi})
             : !visible(scene, from, light.target))
         return;
     // The density of y_0 for the eye walk, in the measure of pdf_position.
@@ -142,8 +142,8 @@ HD void light_image_of_infinity(const SceneView<needs>& scene, const PathOptions
 {
     std::uint32_t pixel = 0;
     if (!scene.camera.project(towards, pixel)) return;
-    if (any_hit(scene.geometry, {leave_end(scene, scene.camera.eye, scene.eye_contacts, towards),
-                                 std::numeric_limits<float>::infinity(), towards}))
+    if (occluded(scene.geometry, {leave_end(scene, scene.camera.eye, scene.eye_contacts, towards),
+                                  std::numeric_limits<float>::infinity(), towards}))
         return;
     const float pdf_rev_solid_angle = scene.camera.pdf_solid_angle(scene.camera.cosine(towards));
     const float weight =
@@ -186,4 +186,4 @@ HD void inner_connection(const SceneView<needs>& scene, const PathOptions& optio
                                      {z.pdf_area, pdf_rev_area_z, z.bracket(s)}));
 }
 
-} // namespace gpu
+} // namespace fast

@@ -5,7 +5,7 @@
 
 #include "cuda/transport/surface_point.h"
 
-namespace gpu {
+namespace fast {
 
 /// Where a ray that leaves an end of a path in `direction` begins: beyond the surfaces that the end lies
 /// on, so that it does not meet them; and where a segment of that `length` ends that comes to it from
@@ -123,4 +123,4 @@ HD bool sees_first(const SceneView<needs>& scene, const SurfacePoint& point, con
     return scene.surfaces[point.primitive].contacts == 0 || sees_first_of_several(scene, point, towards);
 }
 
-} // namespace gpu
+} // namespace fast

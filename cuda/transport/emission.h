@@ -4,7 +4,7 @@
 
 #include "cuda/transport/emitter.h"
 
-namespace gpu {
+namespace fast {
 
 /// The beginning of a light walk.
 struct SampledEmission {
@@ -71,4 +71,4 @@ HD SampledEmission sample_emission(const SceneView<needs>& scene, const Uniforms
     return emission;
 }
 
-} // namespace gpu
+} // namespace fast

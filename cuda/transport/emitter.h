@@ -17,7 +17,7 @@
 #include "cuda/transport/scene_view.h"
 #include "cuda/transport/surface_point.h"
 
-namespace gpu {
+namespace fast {
 
 /// The number of the emitter that `u` in [0, 1) falls on: the first whose sum exceeds u. Emitters of no
 /// power are never chosen. There must be one that has some.
@@ -189,4 +189,4 @@ HD bool sample_incident(const SceneView<needs>& scene, const Vec3& from, const U
     return !is_black(light.alpha);
 }
 
-} // namespace gpu
+} // namespace fast

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace gpu {
+namespace fast {
 
 std::vector<float> summed_probabilities(const std::vector<double>& powers)
 {
@@ -41,4 +41,4 @@ std::vector<float> summed_probabilities(const std::vector<double>& powers)
     return sums;
 }
 
-} // namespace gpu
+} // namespace fast

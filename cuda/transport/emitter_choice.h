@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace gpu {
+namespace fast {
 
 /// The sums of the probabilities of emitters 0 ... i, for emitters of these powers (>= 0); none if no
 /// emitter has power. Each is a multiple of 2^-24, which is the grid of uniform numbers in floats: so
@@ -14,4 +14,4 @@ namespace gpu {
 /// std::invalid_argument if a power is not finite, or if more than 2^24 emitters have one.
 std::vector<float> summed_probabilities(const std::vector<double>& powers);
 
-} // namespace gpu
+} // namespace fast

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace gpu {
+namespace fast {
 
 /// The sum of up to 2^32 floats >= 0. All zero bytes are the empty sum.
 struct ExactSum {
@@ -24,7 +24,7 @@ struct ExactSum {
         if (bits == 0 || bits == 0x8000'0000) return;
         const std::uint32_t exponent = bits >> 23; // with the sign
         if (exponent >= 255) {
-            gpu::add(lost, 1);
+            fast::add(lost, 1);
             return;
         }
         // term = mantissa 2^(place - 149); subnormal numbers have no hidden bit, and share place 0.
@@ -32,8 +32,8 @@ struct ExactSum {
         const std::uint64_t mantissa = (bits & 0x7f'ffff) | hidden;
         const std::uint32_t place = exponent > 0 ? exponent - 1 : 0;
         const std::uint64_t shifted = mantissa << (place % 32);
-        gpu::add(words[place / 32], shifted & 0xffff'ffff);
-        if ((shifted >> 32) != 0) gpu::add(words[place / 32 + 1], shifted >> 32);
+        fast::add(words[place / 32], shifted & 0xffff'ffff);
+        if ((shifted >> 32) != 0) fast::add(words[place / 32 + 1], shifted >> 32);
     }
 
     /// To within a few units of the last place of a double, the same for the same terms; NaN if a term
@@ -47,4 +47,4 @@ struct ExactSum {
     }
 };
 
-} // namespace gpu
+} // namespace fast

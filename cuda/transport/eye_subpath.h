@@ -6,7 +6,7 @@
 #include "cuda/transport/connect.h"
 #include "cuda/transport/watch.h"
 
-namespace gpu {
+namespace fast {
 
 /// From the eye through a random point of the pixel of `id`.
 template <Needs needs>
@@ -72,4 +72,4 @@ HD void eye_subpath(const SceneView<needs>& scene, const PathOptions& options, c
         });
 }
 
-} // namespace gpu
+} // namespace fast

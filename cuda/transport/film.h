@@ -4,11 +4,11 @@
 
 #include "cuda/transport/exact_sum.h"
 #include "cuda/transport/sampling.h"
-#include "cuda/trees/box.h"
+#include "cuda/trees/aabb.h"
 
 #include <span>
 
-namespace gpu {
+namespace fast {
 
 /// The layers of strategies (s, t) of up to k edges come in the order of k, then of s.
 HD constexpr std::uint32_t layer_of(int s, int t)
@@ -26,7 +26,7 @@ struct SplatTarget {
     {
         for (int channel = 0; channel < 3; ++channel) {
             if (exact.empty())
-                gpu::add(sums[i][channel], value[channel]);
+                fast::add(sums[i][channel], value[channel]);
             else
                 exact[3 * i + static_cast<std::size_t>(channel)].add(value[channel]);
         }
@@ -88,7 +88,7 @@ private:
     {
         if (is_finite(value) && std::isfinite(weight)) return false;
         DroppedCount& dropped = target_.dropped[0];
-        gpu::add(dropped.count, std::uint64_t{1});
+        fast::add(dropped.count, std::uint64_t{1});
         take_least(dropped.least_key, dropped_key(pixel, s, t));
         return true;
     }
@@ -121,4 +121,4 @@ struct Clear {
     HD void operator()(std::uint32_t index) const { elements[index] = T{}; }
 };
 
-} // namespace gpu
+} // namespace fast

@@ -5,7 +5,7 @@
 #include "cuda/transport/connect.h"
 #include "cuda/transport/watch.h"
 
-namespace gpu {
+namespace fast {
 
 /// The light image of y_0, s = t = 1, if the eye can see the emitter.
 template <Needs needs, Integrator integrator, class Sink>
@@ -88,4 +88,4 @@ HD int light_subpath(const SceneView<needs>& scene, const PathOptions& options, 
     return count;
 }
 
-} // namespace gpu
+} // namespace fast

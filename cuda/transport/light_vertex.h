@@ -4,7 +4,7 @@
 
 #include "cuda/transport/sampling.h"
 
-namespace gpu {
+namespace fast {
 
 /// A y_{s-1}, s >= 2, that eye vertices can be joined to. It is on a Lambertian surface, whose BSDF and
 /// densities are constants but for a cosine; so 64 bytes hold all of it.
@@ -31,4 +31,4 @@ struct LightVertices {
     HD LightVertex& operator[](int i) const { return first[static_cast<std::size_t>(i) * stride]; }
 };
 
-} // namespace gpu
+} // namespace fast

@@ -10,10 +10,10 @@
 // So their quotient has no unit. The walk learns pdf_rev of v_{n-1} one vertex later, at v_n, as a
 // density per solid angle there; it has kept the factor that turns it into the quotient.
 
-#include "cuda/transport/material.h"
+#include "cuda/transport/bsdf.h"
 #include "images/render_options.h"
 
-namespace gpu {
+namespace fast {
 
 using images::Heuristic;
 
@@ -151,4 +151,4 @@ HD inline float path_next_event_weight(float pdf_hit, float pdf_next_event)
     return balance_of_two(pdf_next_event, pdf_hit); // (6)
 }
 
-} // namespace gpu
+} // namespace fast

@@ -5,7 +5,7 @@
 
 #include "images/render_options.h"
 
-namespace gpu {
+namespace fast {
 
 /// A template argument of whatever depends on it. Triangles and Lambertian surfaces are always there.
 struct Needs {
@@ -22,4 +22,4 @@ struct Needs {
 /// Path tracing and light tracing are bidirectional path tracing with some strategies left out.
 using images::Integrator;
 
-} // namespace gpu
+} // namespace fast

@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-namespace gpu {
+namespace fast {
 
 /// What a block of random numbers decides, numbered like the reference's.
 enum class Event : std::uint32_t {
@@ -49,4 +49,4 @@ HD inline Uniforms uniforms(const SampleId& id, Event event, std::uint32_t j = 0
     return result;
 }
 
-} // namespace gpu
+} // namespace fast

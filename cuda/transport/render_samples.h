@@ -5,7 +5,7 @@
 #include "cuda/transport/bdpt.h"
 #include "cuda/transport/film.h"
 
-namespace gpu {
+namespace fast {
 
 /// Which samples of which pixels a launch takes: index i is pixel first_pixel + i % pixels, sample
 /// first_sample + i / pixels.
@@ -36,4 +36,4 @@ struct RenderSamples {
     }
 };
 
-} // namespace gpu
+} // namespace fast

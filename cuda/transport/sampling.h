@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace gpu {
+namespace fast {
 
 using Rgb = Vec3; // linear, Rec.709 primaries
 
@@ -86,4 +86,4 @@ HD inline void sample_triangle(float u1, float u2, float& b1, float& b2)
     b2 = root * u2;
 }
 
-} // namespace gpu
+} // namespace fast

@@ -4,13 +4,13 @@
 // are not the file's: the scene's centre is the origin and its diameter is between 1 and 2
 // (scene_arrays.h).
 
+#include "cuda/transport/bsdf.h"
 #include "cuda/transport/camera.h"
-#include "cuda/transport/material.h"
 #include "cuda/transport/needs.h"
 #include "cuda/trees/clearance.h"
 #include "cuda/trees/surfaces.h"
 
-namespace gpu {
+namespace fast {
 
 enum class EmitterKind : std::uint32_t { triangle, sphere, point, directional, spot, environment };
 
@@ -123,4 +123,4 @@ HD inline Vec3 end_at_surface(const SurfacePoint& point, const Vec3& facing, flo
     return point.position + (point.clearance + clearance_per_length * length) * facing;
 }
 
-} // namespace gpu
+} // namespace fast

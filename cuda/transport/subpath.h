@@ -8,7 +8,7 @@
 #include "cuda/transport/mis_weight.h"
 #include "cuda/transport/random.h"
 
-namespace gpu {
+namespace fast {
 
 /// How paths are made.
 struct PathOptions {
@@ -84,7 +84,7 @@ HD void walk(const SceneView<needs>& scene, const PathOptions& options, const Sa
                 sums.advance(joinable, pdf_rev_solid_angle, survival, geometry_over_pdf,
                              options.heuristic);
         };
-        Hit hit = closest_hit(scene.geometry, leg.ray);
+        Hit hit = intersect(scene.geometry, leg.ray);
         if (hit.primitive == no_primitive) {
             carry_sums(leg.cosine_over_pdf);
             on_miss(leg, n, alpha, previous_joinable, sums);
@@ -125,4 +125,4 @@ HD void walk(const SceneView<needs>& scene, const PathOptions& options, const Sa
     }
 }
 
-} // namespace gpu
+} // namespace fast

@@ -4,7 +4,7 @@
 
 #include "cuda/transport/scene_view.h"
 
-namespace gpu {
+namespace fast {
 
 /// (v1 - v0) x (v2 - v0) to unit length, whose square may be too small for a float. Any unit vector
 /// where there is no such direction.
@@ -62,4 +62,4 @@ HD SurfacePoint surface_point(const SceneView<needs>& scene, const Ray& ray, con
     return triangle_point(scene, hit.primitive, hit.b1, hit.b2);
 }
 
-} // namespace gpu
+} // namespace fast

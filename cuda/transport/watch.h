@@ -7,7 +7,7 @@
 #include "cuda/transport/emission.h"
 #include "cuda/transport/subpath.h"
 
-namespace gpu {
+namespace fast {
 
 /// Is shown how the light walk begins, every surface that a walk meets, and the leg that meets none.
 template <class Sink>
@@ -37,4 +37,4 @@ HD void show_miss(Sink& sink, Transport carried, const Leg& leg)
     if constexpr (WatchesWalks<Sink>) sink.misses(carried, leg);
 }
 
-} // namespace gpu
+} // namespace fast

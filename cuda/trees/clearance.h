@@ -50,7 +50,7 @@
 #include "cuda/parallel/vec.h"
 #include "cuda/trees/rounding.h"
 
-namespace gpu {
+namespace fast {
 
 /// Of a triangle with these edges from its first vertex: the extent of its box along every axis.
 HD inline Vec3 triangle_extent(const Vec3& e1, const Vec3& e2)
@@ -119,4 +119,4 @@ HD inline Vec3 leave_surface(const Vec3& position, const Vec3& normal, float cle
     return position + (glm::dot(direction, normal) < 0 ? -clearance : clearance) * normal;
 }
 
-} // namespace gpu
+} // namespace fast

@@ -11,14 +11,13 @@
 #include "cuda/parallel/atomic.h"
 #include "cuda/parallel/buffer.h"
 #include "cuda/parallel/executor.h"
-#include "cuda/trees/half_area.h"
 #include "cuda/trees/lbvh.h"
 
 #include <cstdint>
 #include <limits>
 #include <span>
 
-namespace gpu {
+namespace fast {
 
 /// Half a warp in the paper.
 constexpr std::uint32_t most_handed_on = 16;
@@ -29,7 +28,7 @@ constexpr std::uint32_t search_radius = 8;
 /// list. When two clusters merge, the new node is named after the slot of the second, and the first
 /// keeps its own: so names are unique, and do not depend on who is first.
 struct Cluster {
-    Box box;
+    Aabb box;
     std::uint32_t root; // as a child (node.h)
     std::uint32_t slot;
     std::uint32_t height; // edges from the root to the deepest leaf
@@ -49,7 +48,7 @@ struct ClusterList {
 
 /// Kernel over leaves: walks up the radix tree and makes the nodes of another one.
 struct MergeClusters {
-    std::span<const Box> boxes;
+    std::span<const Aabb> boxes;
     std::span<const std::uint32_t> primitives;
     std::span<Node> radix; // of which the links are read and arrivals counted
     std::span<const std::uint32_t> radix_leaf_links;
@@ -109,7 +108,7 @@ private:
     {
         const std::uint32_t begin = i < search_radius ? 0 : i - search_radius;
         const std::uint32_t end = i + search_radius < list.count ? i + search_radius + 1 : list.count;
-        const Box box = clusters[list.first + i].box;
+        const Aabb box = clusters[list.first + i].box;
         std::uint32_t best = i == begin ? i + 1 : begin;
         float smallest = area_of_both(box, clusters[list.first + best].box);
         for (std::uint32_t j = best + 1; j < end; ++j) {
@@ -124,7 +123,7 @@ private:
     }
 
     /// Infinite where it would be no number (0 * infinity): so that any two areas can be compared.
-    [[nodiscard]] HD static float area_of_both(const Box& a, const Box& b)
+    [[nodiscard]] HD static float area_of_both(const Aabb& a, const Aabb& b)
     {
         const float area = half_area(unite(a, b));
         return area == area ? area : std::numeric_limits<float>::infinity();
@@ -187,7 +186,7 @@ public:
     /// Queues the build, of the primitives that `sorted` was built over last, in the order of its
     /// leaves. What is legal input is said there.
     template <Executor E, class Code>
-    void build(E& executor, std::span<const Box> boxes, Lbvh<Code>& sorted)
+    void build(E& executor, std::span<const Aabb> boxes, Lbvh<Code>& sorted)
     {
         count_ = sorted.primitive_count();
         if (count_ == 0) return;
@@ -221,4 +220,4 @@ private:
     Buffer<Top> top_;
 };
 
-} // namespace gpu
+} // namespace fast

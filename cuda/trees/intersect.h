@@ -4,10 +4,10 @@
 //
 // Names follow the paper: kx, ky, kz, S, A, B, C, U, V, W, T, det.
 
+#include "cuda/trees/centroid_bounds.h"
 #include "cuda/trees/ray.h"
-#include "cuda/trees/survey.h"
 
-namespace gpu {
+namespace fast {
 
 /// A ray seen so that it is the z axis: kz is the coordinate along which it is longest, S what shears
 /// and scales the others [Woop et al. 2013, sec. 3.1].
@@ -92,4 +92,4 @@ HD inline bool intersect_triangle(const ShearedRay& ray, const Triangle& triangl
     return true;
 }
 
-} // namespace gpu
+} // namespace fast

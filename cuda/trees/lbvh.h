@@ -7,17 +7,17 @@
 #include "cuda/parallel/buffer.h"
 #include "cuda/parallel/radix_sort.h"
 #include "cuda/parallel/reduce.h"
+#include "cuda/trees/check_input.h"
 #include "cuda/trees/morton.h"
 #include "cuda/trees/radix_tree.h"
 #include "cuda/trees/refit.h"
-#include "cuda/trees/rejected.h"
 
 #include <array>
 #include <concepts>
 #include <stdexcept>
 #include <string>
 
-namespace gpu {
+namespace fast {
 
 /// The parts of a build, in their order.
 enum class Stage { bounds, codes, sort, tree, refit };
@@ -32,12 +32,14 @@ public:
     /// `executor` work on. Throws OutOfMemory, and std::invalid_argument for a larger capacity.
     template <Executor E>
     Lbvh(Memory& memory, const E& executor, std::uint32_t capacity)
-        : nodes_(memory, inner_nodes(checked(capacity))),
+        : nodes_(memory, internal_nodes(checked(capacity))),
           leaf_links_(memory, capacity), codes_{Buffer<Code>(memory, capacity),
                                                 Buffer<Code>(memory, capacity)},
           primitives_{Buffer<std::uint32_t>(memory, capacity), Buffer<std::uint32_t>(memory, capacity)},
-          survey_(memory, 1), survey_scratch_(memory, reduce_scratch(executor, capacity, SurveyBox{},
-                                                                     UniteSurveys{}, empty_survey())),
+          centroid_bounds_(memory, 1),
+          centroid_bounds_scratch_(memory,
+                                   reduce_scratch(executor, capacity, BoundCentroid{},
+                                                  UniteCentroidBounds{}, empty_centroid_bounds())),
           sort_scratch_(memory, sort_scratch<Code, std::uint32_t>(executor, capacity, code_bits<Code>))
     {}
 
@@ -45,10 +47,10 @@ public:
     /// may be queued at once but in order. `finished(stage)` is called as soon as a stage is queued.
     /// Throws std::length_error for more boxes than there is room for.
     ///
-    /// Boxes that are empty or not finite are not legal; what they do to the tree is left open, but the
-    /// build ends, and `check` tells.
+    /// Boxes that are empty or not finite are not legal: the build ends, the tree is undefined, and
+    /// first_rejected() gives the number of the first of them.
     template <Executor E, std::invocable<Stage> Finished>
-    void build(E& executor, std::span<const Box> boxes, const Finished& finished)
+    void build(E& executor, std::span<const Aabb> boxes, const Finished& finished)
     {
         if (boxes.size() > leaf_links_.size())
             throw std::length_error("a tree over " + std::to_string(boxes.size()) +
@@ -56,13 +58,14 @@ public:
                                     std::to_string(leaf_links_.size()));
         count_ = static_cast<std::uint32_t>(boxes.size());
 
-        map_reduce(executor, count_, SurveyBox{boxes}, UniteSurveys{}, empty_survey(),
-                   survey_scratch_.all(), survey_.all());
+        map_reduce(executor, count_, BoundCentroid{boxes}, UniteCentroidBounds{},
+                   empty_centroid_bounds(), centroid_bounds_scratch_.all(), centroid_bounds_.all());
         finished(Stage::bounds);
 
         Alternating<Code> codes{codes_[0].first(count_), codes_[1].first(count_)};
         Alternating<std::uint32_t> order{primitives_[0].first(count_), primitives_[1].first(count_)};
-        executor(count_, ComputeMortonCodes<Code>{boxes, survey_.all(), codes.current, order.current});
+        executor(count_,
+                 ComputeMortonCodes<Code>{boxes, centroid_bounds_.all(), codes.current, order.current});
         finished(Stage::codes);
 
         radix_sort(executor, codes, order, code_bits<Code>, sort_scratch_.all());
@@ -71,40 +74,43 @@ public:
         finished(Stage::sort);
 
         const std::span<std::uint32_t> leaf_links = leaf_links_.first(count_);
-        const std::span<Node> nodes = nodes_.first(inner_nodes(count_));
+        const std::span<Node> nodes = nodes_.first(internal_nodes(count_));
         if (count_ == 1) executor(1, UnlinkOnlyLeaf{leaf_links});
-        executor(inner_nodes(count_), BuildRadixTree<Code>{codes.current, nodes, leaf_links});
+        executor(internal_nodes(count_), BuildRadixTree<Code>{codes.current, nodes, leaf_links});
         finished(Stage::tree);
 
         refit(executor, boxes);
         finished(Stage::refit);
     }
     template <Executor E>
-    void build(E& executor, std::span<const Box> boxes)
+    void build(E& executor, std::span<const Aabb> boxes)
     {
         build(executor, boxes, [](Stage) {});
     }
 
     /// Queues new boxes for the same tree: those of the same primitives, moved.
     template <Executor E>
-    void refit(E& executor, std::span<const Box> boxes)
+    void refit(E& executor, std::span<const Aabb> boxes)
     {
         executor(count_, RefitBounds<>{boxes, sorted_primitives_, leaf_links_.first(count_), nodes()});
     }
 
     // What the last build queued will have left here, in the memory of its kernels.
     [[nodiscard]] std::uint32_t primitive_count() const { return count_; }
-    [[nodiscard]] std::span<Node> nodes() { return nodes_.first(inner_nodes(count_)); }
-    [[nodiscard]] std::span<const Node> nodes() const { return nodes_.first(inner_nodes(count_)); }
+    [[nodiscard]] std::span<Node> nodes() { return nodes_.first(internal_nodes(count_)); }
+    [[nodiscard]] std::span<const Node> nodes() const { return nodes_.first(internal_nodes(count_)); }
     [[nodiscard]] std::span<const std::uint32_t> leaf_links() const { return leaf_links_.first(count_); }
     [[nodiscard]] std::span<const std::uint32_t> primitives() const { return sorted_primitives_; }
     [[nodiscard]] std::span<const Code> codes() const { return sorted_codes_; } // in the order of leaves
 
-    /// Waits for the build. The lowest number of a primitive that is no legal box, or no_primitive.
-    [[nodiscard]] std::uint32_t first_rejected() const { return survey_.read(1)[0].first_rejected; }
+    /// Waits for the build. The lowest number of a primitive whose box is not legal, or no_primitive.
+    [[nodiscard]] std::uint32_t first_rejected() const
+    {
+        return centroid_bounds_.read(1)[0].first_rejected;
+    }
 
 private:
-    static std::uint32_t inner_nodes(std::uint32_t primitives)
+    static std::uint32_t internal_nodes(std::uint32_t primitives)
     {
         return primitives == 0 ? 0 : primitives - 1;
     }
@@ -123,9 +129,9 @@ private:
     std::array<Buffer<std::uint32_t>, 2> primitives_;
     std::span<const Code> sorted_codes_;
     std::span<const std::uint32_t> sorted_primitives_;
-    Buffer<Survey> survey_;
-    Buffer<Survey> survey_scratch_;
+    Buffer<CentroidBounds> centroid_bounds_;
+    Buffer<CentroidBounds> centroid_bounds_scratch_;
     Buffer<std::uint32_t> sort_scratch_;
 };
 
-} // namespace gpu
+} // namespace fast

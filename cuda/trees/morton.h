@@ -11,14 +11,14 @@
 // the two differences and the quotient round by 3 u p more; times 2^b is exact. So the product errs by
 // 2^b (4 u M / E + 3 u) in first order, and the cell, which is its integer part, by that rounded up.
 
-#include "cuda/trees/survey.h"
+#include "cuda/trees/centroid_bounds.h"
 
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <type_traits>
 
-namespace gpu {
+namespace fast {
 
 /// 30 bits, 10 per axis, in 32; 63 bits, 21 per axis, in 64.
 template <class Code>
@@ -60,7 +60,7 @@ HD inline std::uint32_t cell_along_axis(float x, float lower, float upper, int b
 }
 
 template <class Code>
-HD Code morton_code(const Vec3& point, const Box& grid)
+HD Code morton_code(const Vec3& point, const Aabb& grid)
 {
     constexpr int bits = bits_per_axis<Code>;
     const Code x = cell_along_axis(point.x, grid.lower.x, grid.upper.x, bits);
@@ -72,16 +72,16 @@ HD Code morton_code(const Vec3& point, const Box& grid)
 /// Kernel over primitives: the code of the centroid in the grid over all centroids.
 template <class Code>
 struct ComputeMortonCodes {
-    std::span<const Box> boxes;
-    std::span<const Survey> survey; // one
+    std::span<const Aabb> boxes;
+    std::span<const CentroidBounds> centroid_bounds; // one
     std::span<Code> codes;
     std::span<std::uint32_t> primitives;
 
     HD void operator()(std::uint32_t primitive) const
     {
-        codes[primitive] = morton_code<Code>(centroid(boxes[primitive]), survey[0].centroids);
+        codes[primitive] = morton_code<Code>(centroid(boxes[primitive]), centroid_bounds[0].box);
         primitives[primitive] = primitive;
     }
 };
 
-} // namespace gpu
+} // namespace fast

@@ -1,14 +1,14 @@
 #pragma once
 
-// What a tree is made of: nothing but inner nodes, each with the boxes of its two children, so that a
-// ray decides about both of them from one aligned line of 64 bytes, and so that a box is written once,
-// by the thread that knows it, to where it will be read.
+// Nodes of a binary tree. Only internal nodes are stored, each with the boxes of its two children: so a
+// ray tests both boxes with one aligned read of 64 bytes, and the thread that computes a box writes it
+// once, to where it will be read.
 
-#include "cuda/trees/box.h"
+#include "cuda/trees/aabb.h"
 
 #include <cstdint>
 
-namespace gpu {
+namespace fast {
 
 constexpr std::uint32_t no_node = 0xffff'ffff;
 
@@ -18,7 +18,8 @@ constexpr std::uint32_t most_primitives = 1u << 29;
 /// A radix tree is no deeper than this: code bits and the bits of an index, 63 + 29.
 constexpr int deepest_tree = 92;
 
-/// Names a node from above: an inner node by its number, a leaf by its number and the highest bit.
+/// A child as its parent refers to it: an internal node by its number, a leaf by its number and the
+/// highest bit.
 constexpr std::uint32_t leaf_bit = 0x8000'0000;
 
 HD constexpr bool is_leaf(std::uint32_t child)
@@ -26,21 +27,21 @@ HD constexpr bool is_leaf(std::uint32_t child)
     return (child & leaf_bit) != 0;
 }
 
-/// Names a node from below: twice the number of its parent, plus 1 for the right child.
+/// A parent as its child refers to it: twice the number of its parent, plus 1 for the right child.
 HD constexpr std::uint32_t link_to(std::uint32_t parent, std::uint32_t side)
 {
     return parent << 1 | side;
 }
 
-/// Inner node i of a tree over n primitives, 0 <= i < n - 1; node 0 is the root. Leaf l holds
+/// Internal node i of a tree over n primitives, 0 <= i < n - 1; node 0 is the root. Leaf l holds
 /// primitives[l], leaves being numbered from left to right, and has no node. A tree over one primitive
 /// has none at all.
 struct alignas(64) Node {
-    Box bounds[2];
+    Aabb bounds[2];
     std::uint32_t children[2];
     std::uint32_t link;     // to the parent; no_node for the root
     std::uint32_t arrivals; // 0 but during a refit
 };
 static_assert(sizeof(Node) == 64);
 
-} // namespace gpu
+} // namespace fast

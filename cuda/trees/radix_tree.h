@@ -1,6 +1,6 @@
 #pragma once
 
-// The binary radix tree over sorted keys, one thread per inner node [Karras 2012, sec. 3 and 4].
+// The binary radix tree over sorted keys, one thread per internal node [Karras 2012, sec. 3 and 4].
 //
 // Names follow the paper: delta (length of the longest common prefix), d (direction of the range), l
 // (its length), s (distance of the split), gamma (its position), i and j (ends of the range). Keys are
@@ -13,10 +13,10 @@
 #include <limits>
 #include <span>
 
-namespace gpu {
+namespace fast {
 
-/// Kernel over inner nodes, of which n codes have n - 1: finds the range of a node and where it splits,
-/// and links the node with its children. Boxes are left to the refit.
+/// Kernel over internal nodes, of which n codes have n - 1: finds the range of a node and where it
+/// splits, and links the node with its children. Boxes are left to the refit.
 template <class Code>
 struct BuildRadixTree {
     std::span<const Code> codes; // sorted; at most most_primitives
@@ -69,7 +69,7 @@ private:
         return std::numeric_limits<Code>::digits + std::countl_zero(static_cast<std::uint32_t>(i ^ j));
     }
 
-    /// The child next to the split is the leaf of that number, or the inner node of that number.
+    /// The child next to the split is the leaf of that number, or the internal node of that number.
     HD void link(std::uint32_t parent, std::uint32_t side, std::int32_t at_split, bool to_leaf) const
     {
         const auto number = static_cast<std::uint32_t>(at_split);
@@ -85,4 +85,4 @@ struct UnlinkOnlyLeaf {
     HD void operator()(std::uint32_t leaf) const { leaf_links[leaf] = no_node; }
 };
 
-} // namespace gpu
+} // namespace fast

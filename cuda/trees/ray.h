@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace gpu {
+namespace fast {
 
 /// The points origin + t * direction with 0 < t < t_max.
 struct Ray {
@@ -28,4 +28,4 @@ HD inline bool comes_before(const Hit& a, const Hit& b)
     return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
 }
 
-} // namespace gpu
+} // namespace fast

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-namespace gpu {
+namespace fast {
 
 /// Kernel over leaves: walks from a leaf towards the root and writes, at every node, the box of the
 /// child that it comes from. Of the two walks that arrive at a node the first stops there; the second
@@ -17,14 +17,14 @@ namespace gpu {
 /// `arrive_at` is a parameter so that tests can show what a wrong one does.
 template <std::uint32_t (*arrive_at)(std::uint32_t&) = arrive>
 struct RefitBounds {
-    std::span<const Box> boxes;
+    std::span<const Aabb> boxes;
     std::span<const std::uint32_t> primitives; // one per leaf
     std::span<const std::uint32_t> leaf_links;
     std::span<Node> nodes;
 
     HD void operator()(std::uint32_t leaf) const
     {
-        Box box = boxes[primitives[leaf]];
+        Aabb box = boxes[primitives[leaf]];
         for (std::uint32_t link = leaf_links[leaf]; link != no_node;) {
             Node& node = nodes[link >> 1];
             node.bounds[link & 1] = box;
@@ -38,4 +38,4 @@ struct RefitBounds {
     }
 };
 
-} // namespace gpu
+} // namespace fast

@@ -4,9 +4,9 @@
 
 #include <limits>
 
-namespace gpu {
+namespace fast {
 
 /// A single operation returns its exact result times 1 + d, |d| <= unit_roundoff.
 constexpr float unit_roundoff = std::numeric_limits<float>::epsilon() / 2;
 
-} // namespace gpu
+} // namespace fast

@@ -2,24 +2,23 @@
 
 // How good a tree is, on the host.
 
-#include "cuda/trees/half_area.h"
 #include "cuda/trees/node.h"
 
 #include <span>
 
-namespace gpu {
+namespace fast {
 
 /// Expected cost of a ray that meets the root, with C_trav = C_isect = 1 and one primitive per leaf: the
 /// areas of all nodes and leaves over that of the root [Goldsmith and Salmon 1987]. Each but the root's
-/// stands in its parent. 1 where there is no inner node.
+/// stands in its parent. 1 where there is no internal node.
 inline double sah_cost(std::span<const Node> nodes)
 {
     if (nodes.empty()) return 1;
     const double root = half_area(unite(nodes[0].bounds[0], nodes[0].bounds[1]));
     double sum = 0;
     for (const Node& node : nodes)
-        for (const Box& box : node.bounds) sum += root > 0 ? half_area(box) / root : 1;
+        for (const Aabb& box : node.bounds) sum += root > 0 ? half_area(box) / root : 1;
     return 1 + sum;
 }
 
-} // namespace gpu
+} // namespace fast

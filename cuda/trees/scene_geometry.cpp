@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gpu {
+namespace fast {
 
 bool has_area_in_double(const scenes::Triangle& triangle)
 {
@@ -80,12 +80,12 @@ std::vector<Sphere> spheres_of(const scenes::Scene& scene, const Placement& plac
     return spheres;
 }
 
-std::vector<Box> boxes_of(const scenes::Scene& scene, const Placement& place)
+std::vector<Aabb> boxes_of(const scenes::Scene& scene, const Placement& place)
 {
     const std::vector<Triangle> triangles = triangles_of(scene, place);
     const std::vector<Sphere> spheres = spheres_of(scene, place);
-    std::vector<Box> boxes(triangles.size() + spheres.size());
-    const std::span<Box> all(boxes);
+    std::vector<Aabb> boxes(triangles.size() + spheres.size());
+    const std::span<Aabb> all(boxes);
     SerialExecutor executor;
     executor(static_cast<std::uint32_t>(triangles.size()),
              BoundTriangles{triangles, all.first(triangles.size())});
@@ -94,4 +94,4 @@ std::vector<Box> boxes_of(const scenes::Scene& scene, const Placement& place)
     return boxes;
 }
 
-} // namespace gpu
+} // namespace fast

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace gpu {
+namespace fast {
 
 /// Where a scene's coordinates go before they are rounded: x to (x - origin) scale. So a scene far from
 /// the origin of its file loses no digits, and one of any size no range.
@@ -47,6 +47,6 @@ std::vector<Sphere> spheres_of(const scenes::Scene& scene, const Placement& plac
 
 /// The box of every primitive, numbered as by scenes::primitive_count: those of `triangles_of`, and
 /// those of `spheres_of`, rounded outwards.
-std::vector<Box> boxes_of(const scenes::Scene& scene, const Placement& place = {});
+std::vector<Aabb> boxes_of(const scenes::Scene& scene, const Placement& place = {});
 
-} // namespace gpu
+} // namespace fast

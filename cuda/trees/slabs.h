@@ -22,11 +22,11 @@
 #include <cstddef>
 #include <limits>
 
-namespace gpu {
+namespace fast {
 
 class Slabs {
 public:
-    HD Slabs(const Ray& ray, const Box& root)
+    HD Slabs(const Ray& ray, const Aabb& root)
         : reciprocal_(1.0f / ray.direction.x, 1.0f / ray.direction.y, 1.0f / ray.direction.z)
     {
         const Vec3 reach =
@@ -43,7 +43,7 @@ public:
         }
     }
     /// The smallest t >= 0 at which the ray is in the box; infinity if it is in it at no t <= limit.
-    [[nodiscard]] HD float entry(const Box& box, float limit) const
+    [[nodiscard]] HD float entry(const Aabb& box, float limit) const
     {
         float near = 0;
         float far = limit;
@@ -56,7 +56,7 @@ public:
 private:
     friend class WideSlabs;
 
-    HD void clip(const Box& box, int axis, float& near, float& far) const
+    HD void clip(const Aabb& box, int axis, float& near, float& far) const
     {
         const bool descends = first_[axis] != 0;
         const float enter =
@@ -116,4 +116,4 @@ private:
     Lanes reciprocal_[3];
 };
 
-} // namespace gpu
+} // namespace fast

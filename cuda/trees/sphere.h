@@ -27,7 +27,7 @@
 #include <limits>
 #include <span>
 
-namespace gpu {
+namespace fast {
 
 /// The points at `radius` >= 0 from `center`.
 struct Sphere {
@@ -39,7 +39,7 @@ struct Sphere {
 /// negative radius one that is empty: they will be rejected.
 struct BoundSpheres {
     std::span<const Sphere> spheres;
-    std::span<Box> boxes;
+    std::span<Aabb> boxes;
 
     HD void operator()(std::uint32_t i) const
     {
@@ -83,4 +83,4 @@ HD inline bool intersect_sphere(const Ray& ray, const Sphere& sphere, float limi
     return true;
 }
 
-} // namespace gpu
+} // namespace fast

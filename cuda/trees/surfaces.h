@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace gpu {
+namespace fast {
 
 /// What kernels need of the surfaces. Where there are no spheres they cost nothing.
 template <bool has_spheres>
@@ -53,7 +53,7 @@ HD inline bool is_a_ray(const Ray& ray)
 /// is hit, as by a ray that has no place or no direction, its primitive is no_primitive and its t that
 /// of the ray's end.
 template <bool has_spheres>
-HD Hit closest_hit(const Surfaces<has_spheres>& surfaces, const Ray& ray)
+HD Hit intersect(const Surfaces<has_spheres>& surfaces, const Ray& ray)
 {
     Hit best{ray.t_max, no_primitive, 0, 0};
     if (!is_a_ray(ray)) return best;
@@ -69,7 +69,7 @@ HD Hit closest_hit(const Surfaces<has_spheres>& surfaces, const Ray& ray)
 
 /// Whether the ray hits anything; see above for one that is none.
 template <bool has_spheres>
-HD bool any_hit(const Surfaces<has_spheres>& surfaces, const Ray& ray)
+HD bool occluded(const Surfaces<has_spheres>& surfaces, const Ray& ray)
 {
     if (!is_a_ray(ray)) return false;
     const ShearedRay sheared(ray);
@@ -122,16 +122,16 @@ private:
         const auto sphere_count = static_cast<std::uint32_t>(spheres_.size());
         const std::uint32_t count = triangle_count_ + sphere_count;
         const Buffer<Triangle> given(memory, triangles);
-        Buffer<Box> boxes(memory, count);
+        Buffer<Aabb> boxes(memory, count);
         executor(triangle_count_, BoundTriangles{given.all(), boxes.first(triangle_count_)});
         executor(sphere_count, BoundSpheres{spheres_.all(), boxes.all().subspan(triangle_count_)});
 
         Lbvh<std::uint64_t> tree(memory, executor, count);
         tree.build(executor, boxes.all());
-        const std::vector<Box> on_host = boxes.read(count);
+        const std::vector<Aabb> on_host = boxes.read(count);
         throw_if_rejected(tree.first_rejected(), on_host);
-        Box bounds = empty_box();
-        for (const Box& box : on_host) bounds = unite(bounds, box);
+        Aabb bounds = empty_aabb();
+        for (const Aabb& box : on_host) bounds = unite(bounds, box);
         if (count > 0) diagonal_ = glm::length(bounds.upper - bounds.lower);
         return {memory, executor, std::as_const(tree).nodes(), tree.primitives(), given.all()};
     }
@@ -142,4 +142,4 @@ private:
     WideTree tree_;
 };
 
-} // namespace gpu
+} // namespace fast

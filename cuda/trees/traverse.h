@@ -1,11 +1,11 @@
 #pragma once
 
-// A ray's way through a tree, and the two questions that it answers: what is hit first, and is anything
-// hit?
+// Traverses a tree along a ray: the closest hit (intersect), and whether there is any (occluded).
 
 #include "cuda/trees/intersect.h"
 #include "cuda/trees/node.h"
 #include "cuda/trees/slabs.h"
+#include "cuda/trees/traversal_stack.h"
 #include "cuda/trees/wide_tree.h"
 
 #include <bit>
@@ -13,10 +13,10 @@
 #include <limits>
 #include <span>
 
-namespace gpu {
+namespace fast {
 
-/// What rays need of a tree, which may be `deepest_tree` deep. Triangles are in the order of leaves: a
-/// leaf's number is its triangle's.
+/// A tree as traversal reads it; at most `deepest_tree` deep. Triangles are in the order of leaves: leaf
+/// l holds triangles[l].
 struct TreeView {
     std::span<const Node> nodes;
     std::span<const std::uint32_t> primitives; // by leaf: which primitive its triangle is
@@ -32,43 +32,7 @@ struct OrderTriangles {
     HD void operator()(std::uint32_t leaf) const { ordered[leaf] = triangles[primitives[leaf]]; }
 };
 
-/// Nodes and leaves that a ray has yet to visit, and where it would enter them.
-class Waiting {
-public:
-    HD void push(std::uint32_t child, float entry)
-    {
-        children_[height_] = child;
-        entries_[height_] = entry;
-        ++height_;
-    }
-    HD void push_if(bool wanted, std::uint32_t child, float entry)
-    {
-        children_[height_] = child;
-        entries_[height_] = entry;
-        height_ += wanted ? 1 : 0;
-    }
-    /// Takes the latest one that begins at t <= limit away, and those above; false if there is none.
-    /// What begins at the very limit counts: it may hold a primitive of lower number at the same t.
-    HD bool pop(float limit, std::uint32_t& child)
-    {
-        while (height_ > 0) {
-            --height_;
-            child = children_[height_];
-            if (entries_[height_] <= limit) return true;
-        }
-        return false;
-    }
-
-private:
-    // A step down a tree leaves one child waiting; one down a wide tree three, and it may be a step to a
-    // child that the narrow tree has no deeper, while its sibling has been opened twice.
-    static constexpr int most = 3 * deepest_tree + 4;
-    std::uint32_t children_[most];
-    float entries_[most];
-    int height_ = 0;
-};
-
-/// For those who do not count nodes.
+/// A counter of nodes that counts nothing.
 struct NotCounted {
     HD void operator()() const {}
 };
@@ -87,7 +51,7 @@ HD void traverse(const TreeView& tree, const Ray& ray, const Test& test, const C
     const Slabs slabs(ray, unite(tree.nodes[0].bounds[0], tree.nodes[0].bounds[1]));
     constexpr float never = std::numeric_limits<float>::infinity();
     float limit = ray.t_max;
-    Waiting waiting;
+    TraversalStack stack;
     std::uint32_t next = 0;
     do {
         if (is_leaf(next)) {
@@ -99,11 +63,11 @@ HD void traverse(const TreeView& tree, const Ray& ray, const Test& test, const C
         const float entry[2] = {slabs.entry(node.bounds[0], limit), slabs.entry(node.bounds[1], limit)};
         const int nearer = entry[1] < entry[0] ? 1 : 0;
         for (const int side : {1 - nearer, nearer})
-            if (entry[side] < never) waiting.push(node.children[side], entry[side]);
-    } while (waiting.pop(limit, next));
+            if (entry[side] < never) stack.push(node.children[side], entry[side]);
+    } while (stack.pop(limit, next));
 }
 
-/// In five steps, whatever they are.
+/// Sorts in ascending order by a network of five exchanges [Knuth 1998, sec. 5.3.4].
 HD inline void sort_four(std::uint32_t (&keys)[4])
 {
     const auto order = [&](int i, int j) {
@@ -119,7 +83,7 @@ HD inline void sort_four(std::uint32_t (&keys)[4])
     order(1, 2);
 }
 
-/// The same by way of wide nodes: calls test(group).
+/// The same for a wide tree: calls test(group) for groups of triangles.
 template <class Test, class Count = NotCounted>
 HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test, const Count& count = {})
 {
@@ -129,12 +93,12 @@ HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test, con
     }
     const WideSlabs slabs{Slabs(ray, tree.bounds)};
     float limit = ray.t_max;
-    Waiting waiting;
+    TraversalStack stack;
     std::uint32_t next = 0;
     for (;;) {
         if (is_leaf(next)) {
             limit = test(next & ~leaf_bit);
-            if (!waiting.pop(limit, next)) return;
+            if (!stack.pop(limit, next)) return;
             continue;
         }
         count();
@@ -143,22 +107,22 @@ HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test, con
         Lanes far;
         slabs.entries(node, limit, near, far);
         std::uint32_t keys[4];
-        sortable(near, far, keys);
+        sort_keys(near, far, keys);
         sort_four(keys);
         if (keys[0] == not_ordered) {
-            if (!waiting.pop(limit, next)) return;
+            if (!stack.pop(limit, next)) return;
             continue;
         }
         for (int i = 3; i >= 1; --i)
-            waiting.push_if(keys[i] != not_ordered, node.children[keys[i] & 3],
-                            std::bit_cast<float>(keys[i] & ~3u));
+            stack.push_if(keys[i] != not_ordered, node.children[keys[i] & 3],
+                          std::bit_cast<float>(keys[i] & ~3u));
         next = node.children[keys[0] & 3];
     }
 }
 
 /// The hit of smallest t; of several at the same t, that of the lowest primitive number.
 template <class View>
-HD Hit closest_hit(const View& tree, const Ray& ray)
+HD Hit intersect(const View& tree, const Ray& ray)
 {
     const ShearedRay sheared(ray);
     Hit best{ray.t_max, no_primitive, 0, 0};
@@ -173,7 +137,7 @@ HD Hit closest_hit(const View& tree, const Ray& ray)
 
 /// Whether the ray hits anything.
 template <class View>
-HD bool any_hit(const View& tree, const Ray& ray)
+HD bool occluded(const View& tree, const Ray& ray)
 {
     const ShearedRay sheared(ray);
     bool found = false;
@@ -187,22 +151,22 @@ HD bool any_hit(const View& tree, const Ray& ray)
 
 /// Kernel over rays.
 template <class View>
-struct FindClosestHits {
+struct IntersectRays {
     View tree;
     std::span<const Ray> rays;
     std::span<Hit> hits;
 
-    HD void operator()(std::uint32_t i) const { hits[i] = closest_hit(tree, rays[i]); }
+    HD void operator()(std::uint32_t i) const { hits[i] = intersect(tree, rays[i]); }
 };
 
 /// Kernel over rays: 1 where anything is hit, 0 elsewhere.
 template <class View>
-struct FindAnyHits {
+struct TestOcclusion {
     View tree;
     std::span<const Ray> rays;
     std::span<std::uint8_t> hits;
 
-    HD void operator()(std::uint32_t i) const { hits[i] = any_hit(tree, rays[i]) ? 1 : 0; }
+    HD void operator()(std::uint32_t i) const { hits[i] = occluded(tree, rays[i]) ? 1 : 0; }
 };
 
-} // namespace gpu
+} // namespace fast

@@ -2,13 +2,13 @@
 
 // Triangles and their boxes.
 
-#include "cuda/trees/box.h"
+#include "cuda/trees/aabb.h"
 
 #include <cstdint>
 #include <limits>
 #include <span>
 
-namespace gpu {
+namespace fast {
 
 struct Triangle {
     Vec3 vertices[3];
@@ -18,15 +18,15 @@ struct Triangle {
 /// box that is NaN, too, and will be rejected by its number.
 struct BoundTriangles {
     std::span<const Triangle> triangles;
-    std::span<Box> boxes;
+    std::span<Aabb> boxes;
 
     HD void operator()(std::uint32_t i) const
     {
         const auto& v = triangles[i].vertices;
-        const Box box{glm::min(glm::min(v[0], v[1]), v[2]), glm::max(glm::max(v[0], v[1]), v[2])};
+        const Aabb box{glm::min(glm::min(v[0], v[1]), v[2]), glm::max(glm::max(v[0], v[1]), v[2])};
         const bool finite = is_finite(v[0]) && is_finite(v[1]) && is_finite(v[2]);
-        boxes[i] = finite ? box : Box{Vec3(std::numeric_limits<float>::quiet_NaN()), box.upper};
+        boxes[i] = finite ? box : Aabb{Vec3(std::numeric_limits<float>::quiet_NaN()), box.upper};
     }
 };
 
-} // namespace gpu
+} // namespace fast

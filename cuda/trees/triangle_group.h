@@ -1,7 +1,7 @@
 #pragma once
 
-// The leaves of a wide tree: up to four triangles side by side, so that the processor sees at once which
-// of them a ray passes by.
+// The leaves of a wide tree: up to four triangles, stored so that the processor tests all of them at
+// once.
 
 #include "cuda/parallel/lanes.h"
 #include "cuda/trees/intersect.h"
@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace gpu {
+namespace fast {
 
 /// Lane i holds triangle i, or NaN where there is none.
 struct alignas(32) TriangleGroup {
@@ -67,7 +67,7 @@ HD inline std::uint32_t may_hit(const ShearedRay& ray, const TriangleGroup& grou
     const Lanes W = edges(B, A);
     const Lanes least = smaller(smaller(U, V), W);
     const Lanes most = larger(larger(U, V), W);
-    if (not_negative(larger(least, -most)) == 0) return 0;
+    if (non_negative_mask(larger(least, -most)) == 0) return 0;
 
     constexpr float tiny = std::numeric_limits<float>::min();
     const Lanes X = larger(larger(A.reach(), B.reach()), C.reach());
@@ -76,7 +76,7 @@ HD inline std::uint32_t may_hit(const ShearedRay& ray, const TriangleGroup& grou
     const Lanes error = all_lanes(4 * unit_roundoff) * bound + all_lanes(tiny) * Z + all_lanes(tiny);
     const Lanes T = (U * A.z + V * B.z + W * C.z) * all_lanes(ray.shear_factors().z < 0 ? -1.0f : 1.0f);
     // Where the first argument is NaN the second counts.
-    return not_negative(larger(smaller(error + T, least), smaller(error - T, -most)));
+    return non_negative_mask(larger(smaller(error + T, least), smaller(error - T, -most)));
 }
 
 /// Calls found(hit) for every triangle of the group that the ray hits at 0 < t < `limit`. Where lanes
@@ -94,4 +94,4 @@ HD void intersect_group(const ShearedRay& ray, const TriangleGroup& group, float
     }
 }
 
-} // namespace gpu
+} // namespace fast

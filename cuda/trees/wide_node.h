@@ -1,46 +1,45 @@
 #pragma once
 
-// Nodes of four children, for rays: half as many steps from the root to a leaf, and four boxes tested by
-// one instruction where the processor has one for four floats [Wald, Benthin, Boulos 2008].
+// Nodes of four children: half as many steps from the root to a leaf as in a binary tree, and four boxes
+// are tested at once where the processor has vectors of four floats [Wald, Benthin, Boulos 2008].
 
 #include "cuda/parallel/lanes.h"
-#include "cuda/trees/half_area.h"
 #include "cuda/trees/node.h"
 
 #include <cstdint>
 #include <limits>
 #include <span>
 
-namespace gpu {
+namespace fast {
 
 /// A leaf of a wide tree has at most so many primitives.
 constexpr std::uint32_t most_in_group = 4;
 
-/// Up to four children, the boxes coordinate by coordinate. A child that is not there has no_node for a
-/// name and a box that no ray enters. Two cache lines.
+/// Up to four children, the boxes coordinate by coordinate. A child that is absent is no_node, and
+/// its box is one that no ray enters. Two cache lines.
 struct alignas(64) WideNode {
     Lanes planes[6];           // lower x, y, z; upper x, y, z
     std::uint32_t children[4]; // a wide node by its number, a group by its number and the highest bit
 };
 static_assert(sizeof(WideNode) == 128);
 
-/// The leaves below `child`, from left to right. Returns how many; if they are more than fit, that is
-/// said by most_in_group + 1.
+/// Collects the leaves below `child`, from left to right. Returns their number, or most_in_group + 1 if
+/// there are more than most_in_group.
 HD inline std::uint32_t leaves_below(std::span<const Node> nodes, std::uint32_t child,
                                      std::uint32_t (&leaves)[most_in_group])
 {
-    std::uint32_t waiting[most_in_group + 1] = {child}; // each stands for one leaf at least
+    std::uint32_t stack[most_in_group + 1] = {child}; // each stands for one leaf at least
     std::uint32_t height = 1;
     std::uint32_t count = 0;
     while (height > 0) {
-        const std::uint32_t next = waiting[--height];
+        const std::uint32_t next = stack[--height];
         if (is_leaf(next)) {
             leaves[count++] = next & ~leaf_bit;
             continue;
         }
         if (count + height + 2 > most_in_group) return most_in_group + 1;
-        waiting[height++] = nodes[next].children[1];
-        waiting[height++] = nodes[next].children[0];
+        stack[height++] = nodes[next].children[1];
+        stack[height++] = nodes[next].children[0];
     }
     return count;
 }
@@ -54,13 +53,14 @@ HD inline bool is_group(std::span<const Node> nodes, std::uint32_t child)
 
 /// Up to four children of a node.
 struct OpenedNode {
-    Box boxes[4];
+    Aabb boxes[4];
     std::uint32_t children[4];
     bool groups[4]; // which of the children are
     int count;
 };
 
-/// A node that is no group, after opening twice the child with the largest surface that is none either
+/// The children of a wide node: those of `node`, after replacing twice the internal child of the largest
+/// surface area by its own children. `node` is no group.
 /// [Wald et al. 2008, sec. 3.1].
 HD inline OpenedNode opened(std::span<const Node> nodes, std::uint32_t node)
 {
@@ -88,4 +88,4 @@ HD inline OpenedNode opened(std::span<const Node> nodes, std::uint32_t node)
     return result;
 }
 
-} // namespace gpu
+} // namespace fast

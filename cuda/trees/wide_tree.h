@@ -1,11 +1,14 @@
 #pragma once
 
-// From a tree of two children per node to one of four, with groups of up to four triangles for leaves.
+// Collapses a binary tree into one of four children per node, whose leaves are groups of up to four
+// triangles [Wald, Benthin, Boulos 2008].
 //
-// A node says which nodes below it are its children when it is a wide one (wide_node.h: opened); whether
-// it is one at all is known only from above. So wide nodes are found level by level from the root on. In
-// which order they are found is left to chance; their numbers are not: they follow those of the narrow
-// nodes, so that every executor makes the same tree, and neighbours in space stay neighbours in memory.
+// Each binary node gets a role: it becomes a wide node, it becomes a group, or it is merged into the
+// wide node or group of an ancestor. The children of a wide node are found from its own subtree
+// (wide_node.h: opened). Whether a binary node becomes a wide node depends on its ancestors. So wide
+// nodes are found level by level, from the root down. The order in which threads find them varies; their
+// numbers do not: they follow the numbers of the binary nodes. So every executor makes the same tree,
+// and neighbours in space stay neighbours in memory.
 
 #include "cuda/parallel/atomic.h"
 #include "cuda/parallel/buffer.h"
@@ -19,22 +22,23 @@
 #include <limits>
 #include <span>
 
-namespace gpu {
+namespace fast {
 
-/// What rays need of a wide tree. Without nodes group 0, if there is one, is all.
+/// A wide tree as traversal reads it. Without nodes the tree is group 0, if there is one.
 struct WideTreeView {
     std::span<const WideNode> nodes;
     std::span<const TriangleGroup> groups;
-    Box bounds; // of the root
+    Aabb bounds; // of the root
 };
 
-/// What becomes of a node or leaf of the narrow tree: words that sort as they are to be numbered.
-constexpr std::uint32_t becomes_wide_node = 0;
-constexpr std::uint32_t becomes_group = 1;
-constexpr std::uint32_t becomes_nothing = 2;
+/// The role of a node or leaf of the binary tree in the wide one. Sorting by role brings wide nodes to
+/// the front, then groups.
+constexpr std::uint32_t wide_node_role = 0;
+constexpr std::uint32_t group_role = 1;
+constexpr std::uint32_t merged_role = 2; // into the wide node or group of an ancestor
 
-/// Nodes and leaves numbered through along the curve: leaf l is 2 l, inner node i, of whose range i is
-/// one end, 2 i + 1. So groups that lie side by side are stored side by side.
+/// Nodes and leaves numbered through along the curve: leaf l is 2 l, internal node i, of whose range i
+/// is one end, 2 i + 1. So groups that lie side by side are stored side by side.
 HD constexpr std::uint32_t number_of(std::uint32_t child)
 {
     return is_leaf(child) ? child << 1 : child << 1 | 1;
@@ -46,23 +50,23 @@ HD constexpr std::uint32_t child_of(std::uint32_t number)
     return (number & 1) != 0 ? number >> 1 : number >> 1 | leaf_bit;
 }
 
-/// Kernel over nodes and leaves: none has become anything yet, but the root.
+/// Kernel over nodes and leaves: gives the root its role, and all others the role merged_role for now.
 struct BeginWideTree {
     std::uint32_t root; // its number
-    std::uint32_t root_becomes;
-    std::span<std::uint32_t> fates;
+    std::uint32_t root_role;
+    std::span<std::uint32_t> roles;
     std::span<std::uint32_t> numbers;
     std::span<std::uint32_t> found;  // wide nodes, in the order in which they are found
     std::span<std::uint32_t> counts; // of wide nodes, of groups
 
     HD void operator()(std::uint32_t i) const
     {
-        fates[i] = i == root ? root_becomes : becomes_nothing;
+        roles[i] = i == root ? root_role : merged_role;
         numbers[i] = i;
         if (i != root) return;
         if (!found.empty()) found[0] = 0;
-        counts[0] = root_becomes == becomes_wide_node ? 1 : 0;
-        counts[1] = root_becomes == becomes_group ? 1 : 0;
+        counts[0] = root_role == wide_node_role ? 1 : 0;
+        counts[1] = root_role == group_role ? 1 : 0;
     }
 };
 
@@ -70,7 +74,7 @@ struct BeginWideTree {
 struct FindWideNodes {
     std::span<const Node> nodes;
     std::uint32_t first; // of this level in `found`
-    std::span<std::uint32_t> fates;
+    std::span<std::uint32_t> roles;
     std::span<std::uint32_t> found;
     std::span<std::uint32_t> counts;
 
@@ -80,14 +84,15 @@ struct FindWideNodes {
         for (int c = 0; c < node.count; ++c) {
             const std::uint32_t child = node.children[c];
             const bool group = node.groups[c];
-            fates[number_of(child)] = group ? becomes_group : becomes_wide_node;
+            roles[number_of(child)] = group ? group_role : wide_node_role;
             const std::uint32_t place = arrive(counts[group ? 1 : 0]);
             if (!group) found[place] = child;
         }
     }
 };
 
-/// Kernel over all that has become something, wide nodes first: its new name.
+/// Kernel over wide nodes and groups, wide nodes first: the reference to each, as its parent will hold
+/// it.
 struct NameWideNodes {
     std::span<const std::uint32_t> numbers;
     std::uint32_t wide_nodes;
@@ -99,7 +104,7 @@ struct NameWideNodes {
     }
 };
 
-/// Kernel over wide nodes.
+/// Kernel over wide nodes: fills in children and boxes.
 struct FillWideNodes {
     std::span<const Node> nodes;
     std::span<const std::uint32_t> numbers;
@@ -121,7 +126,7 @@ struct FillWideNodes {
     }
 };
 
-/// Kernel over groups. A primitive that is no triangle has a number, but no vertices.
+/// Kernel over groups: fills in primitives and vertices. A sphere has its number here, and NaN vertices.
 struct FillGroups {
     std::span<const Node> nodes;
     std::span<const std::uint32_t> numbers;
@@ -145,7 +150,7 @@ struct FillGroups {
     }
 };
 
-/// Owns a wide tree.
+/// Builds and owns a wide tree.
 class WideTree {
 public:
     /// Of a tree (node.h) whose leaves hold `primitives`, of which the first are `triangles`; all in
@@ -157,29 +162,28 @@ public:
     {
         if (primitives.empty()) return;
         const auto all = static_cast<std::uint32_t>(nodes.size() + primitives.size());
-        std::array<Buffer<std::uint32_t>, 2> fates{Buffer<std::uint32_t>(memory, all),
+        std::array<Buffer<std::uint32_t>, 2> roles{Buffer<std::uint32_t>(memory, all),
                                                    Buffer<std::uint32_t>(memory, all)};
         std::array<Buffer<std::uint32_t>, 2> numbers{Buffer<std::uint32_t>(memory, all),
                                                      Buffer<std::uint32_t>(memory, all)};
         Buffer<std::uint32_t> found(memory, nodes.size());
         Buffer<std::uint32_t> counts(memory, 2);
-        executor(all,
-                 BeginWideTree{number_of(nodes.empty() ? leaf_bit : 0),
-                               primitives.size() > most_in_group ? becomes_wide_node : becomes_group,
-                               fates[0].all(), numbers[0].all(), found.all(), counts.all()});
+        executor(all, BeginWideTree{number_of(nodes.empty() ? leaf_bit : 0),
+                                    primitives.size() > most_in_group ? wide_node_role : group_role,
+                                    roles[0].all(), numbers[0].all(), found.all(), counts.all()});
         std::uint32_t wide_nodes = 0;
         for (std::uint32_t next = counts.read(1)[0]; next > wide_nodes; next = counts.read(1)[0]) {
             executor(next - wide_nodes,
-                     FindWideNodes{nodes, wide_nodes, fates[0].all(), found.all(), counts.all()});
+                     FindWideNodes{nodes, wide_nodes, roles[0].all(), found.all(), counts.all()});
             wide_nodes = next;
         }
         const std::uint32_t groups = counts.read(2)[1];
 
-        Alternating<std::uint32_t> fate{fates[0].all(), fates[1].all()};
+        Alternating<std::uint32_t> role{roles[0].all(), roles[1].all()};
         Alternating<std::uint32_t> number{numbers[0].all(), numbers[1].all()};
         Buffer<std::uint32_t> scratch(memory,
                                       sort_scratch<std::uint32_t, std::uint32_t>(executor, all, 2));
-        radix_sort(executor, fate, number, 2, scratch.all());
+        radix_sort(executor, role, number, 2, scratch.all());
 
         const std::span<std::uint32_t> names = number.other;
         executor(wide_nodes + groups, NameWideNodes{number.current, wide_nodes, names});
@@ -200,7 +204,7 @@ public:
 private:
     Buffer<WideNode> nodes_;
     Buffer<TriangleGroup> groups_;
-    Box bounds_ = empty_box();
+    Aabb bounds_ = empty_aabb();
 };
 
-} // namespace gpu
+} // namespace fast

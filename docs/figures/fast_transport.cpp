@@ -5,7 +5,7 @@
 // figure_fast_transport --help says how to call it. 240 x 160 pixels, at most 6 edges.
 
 #include "cli/rounds.h"
-#include "cuda/transport/renderer.h"
+#include "cuda/launch/renderer.h"
 #include "docs/figures/measure.h"
 #include "docs/figures/program.h"
 #include "ref/transport/bdpt.h"
@@ -51,14 +51,14 @@ Rendered render_for(double seconds, double (*clock)(), const RenderBatch& render
     return {film.mean(), static_cast<double>(film.batches()) * 4 * width * height / passed, passed};
 }
 
-Rendered fast(const scenes::Scene& scene, gpu::Integrator integrator, unsigned threads, double seconds,
-              std::uint64_t seed, gpu::Needs at_least = {})
+Rendered fast(const scenes::Scene& scene, fast::Integrator integrator, unsigned threads, double seconds,
+              std::uint64_t seed, fast::Needs at_least = {})
 {
     images::RenderOptions options;
     options.integrator = integrator;
     options.max_edges = max_edges;
     options.seed = seed;
-    const auto renderer = gpu::host_renderer(scene, width, height, options, threads, at_least);
+    const auto renderer = fast::host_renderer(scene, width, height, options, threads, at_least);
     return render_for(seconds, threads == 1 ? figures::cpu_seconds : wall_seconds,
                       [&](std::uint64_t number) { return renderer->render_batch(number, {})->mean; });
 }
@@ -81,7 +81,7 @@ std::string rates_text(const std::vector<double>& rates)
 }
 
 /// Path tracing, then bidirectional path tracing.
-constexpr std::array integrators = {gpu::Integrator::path, gpu::Integrator::bdpt};
+constexpr std::array integrators = {fast::Integrator::path, fast::Integrator::bdpt};
 constexpr std::array names = {"path", "bdpt"};
 constexpr std::array reference_integrators = {ref::trace_path, ref::trace_bidirectionally};
 
@@ -89,7 +89,7 @@ constexpr std::array reference_integrators = {ref::trace_path, ref::trace_bidire
 void compare(const scenes::Scene& scene, const figures::RoundOptions& options, std::mt19937_64& random)
 {
     const images::Image truth =
-        fast(scene, gpu::Integrator::bdpt, 1, options.reference_seconds, options.seed).image;
+        fast(scene, fast::Integrator::bdpt, 1, options.reference_seconds, options.seed).image;
     std::array<std::vector<double>, 2> efficiencies; // 1 / (relMSE s)
     std::vector<cli::Measurement> measurements;      // for each integrator: fast, reference, two threads
     const auto seed_of = [&](std::size_t round) { return options.seed + 1 + round; };
@@ -130,12 +130,12 @@ void compare(const scenes::Scene& scene, const figures::RoundOptions& options, s
 void measure_needs(const scenes::Scene& scene, const figures::RoundOptions& options,
                    std::mt19937_64& random)
 {
-    constexpr std::array more = {gpu::Needs{}, gpu::Needs{true, false, false},
-                                 gpu::Needs{false, true, false}, gpu::Needs{false, false, true},
-                                 gpu::Needs{true, true, true}};
+    constexpr std::array more = {fast::Needs{}, fast::Needs{true, false, false},
+                                 fast::Needs{false, true, false}, fast::Needs{false, false, true},
+                                 fast::Needs{true, true, true}};
     for (std::size_t i = 0; i < integrators.size(); ++i) {
         std::vector<cli::Measurement> measurements;
-        for (const gpu::Needs& needs : more)
+        for (const fast::Needs& needs : more)
             measurements.emplace_back([&, i, needs](std::size_t round) {
                 return fast(scene, integrators[i], 1, options.seconds, options.seed + 1 + round, needs)
                     .samples_per_second;

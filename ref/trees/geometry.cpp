@@ -56,16 +56,16 @@ Hit first_of_coincident(const Geometry& geometry, const Ray& ray, const Hit& hit
 
 } // namespace
 
-std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray, Work* work)
+std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray, TraversalCounts* counts)
 {
     const ShearedRay sheared(ray);
     std::optional<Hit> closest;
-    const Work done = traverse(geometry.tree(), ray, [&](std::uint32_t primitive) {
+    const TraversalCounts done = traverse(geometry.tree(), ray, [&](std::uint32_t primitive) {
         const auto hit = intersect_primitive(geometry.scene(), ray, sheared, primitive);
         if (hit && (!closest || comes_before(*hit, *closest))) closest = hit;
         return closest ? closest->t : ray.t_max;
     });
-    if (work != nullptr) *work += done;
+    if (counts != nullptr) *counts += done;
     if (closest && !geometry.coincident().empty()) return first_of_coincident(geometry, ray, *closest);
     return closest;
 }
@@ -79,15 +79,15 @@ bool sees_first(const Geometry& geometry, const SurfacePoint& point, const Vec3&
     return first_of_coincident(geometry, ray, hit).primitive == point.primitive;
 }
 
-bool occluded(const Geometry& geometry, const Ray& ray, Work* work)
+bool occluded(const Geometry& geometry, const Ray& ray, TraversalCounts* counts)
 {
     const ShearedRay sheared(ray);
     bool hit = false;
-    const Work done = traverse(geometry.tree(), ray, [&](std::uint32_t primitive) {
+    const TraversalCounts done = traverse(geometry.tree(), ray, [&](std::uint32_t primitive) {
         hit = hit || intersect_primitive(geometry.scene(), ray, sheared, primitive);
         return hit ? -1 : ray.t_max;
     });
-    if (work != nullptr) *work += done;
+    if (counts != nullptr) *counts += done;
     return hit;
 }
 

@@ -46,12 +46,13 @@ private:
 };
 
 /// The hit of smallest t; of several at the same t, that of the lowest primitive number, and of surfaces
-/// that coincide the one that scenes::meeting_rank puts first. Adds to `work`, if there is one, what it
-/// took.
-std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray, Work* work = nullptr);
+/// that coincide the one that scenes::meeting_rank puts first. Adds to `counts`, if there is one, what
+/// it took.
+std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray,
+                             TraversalCounts* counts = nullptr);
 
 /// Whether the ray hits anything at all.
-bool occluded(const Geometry& geometry, const Ray& ray, Work* work = nullptr);
+bool occluded(const Geometry& geometry, const Ray& ray, TraversalCounts* counts = nullptr);
 
 /// Whether a ray that comes from direction `towards` (unit length) sees the surface at `point`, and not
 /// one that coincides with it.

@@ -56,11 +56,11 @@ private:
     Vec3 padding_;
 };
 
-/// How much work a traversal was.
-struct Work {
+/// Counts of the nodes and primitives that traversals tested.
+struct TraversalCounts {
     std::uint64_t nodes = 0;      // boxes that the ray entered, leaves included
     std::uint64_t primitives = 0; // primitives tested
-    Work& operator+=(const Work& other)
+    TraversalCounts& operator+=(const TraversalCounts& other)
     {
         nodes += other.nodes;
         primitives += other.primitives;
@@ -74,10 +74,10 @@ struct Work {
 /// Boxes that are entered exactly at the limit are looked at: they may hold a primitive of lower number
 /// at the same t. The stack grows as it must; the tree may have any depth.
 template <typename Test>
-Work traverse(const Tree& tree, const Ray& ray, Test test)
+TraversalCounts traverse(const Tree& tree, const Ray& ray, Test test)
 {
-    Work work;
-    if (tree.nodes.empty()) return work;
+    TraversalCounts counts;
+    if (tree.nodes.empty()) return counts;
     const Slabs slabs(ray, tree.bounds[0]);
     double limit = ray.t_max;
 
@@ -99,11 +99,11 @@ Work traverse(const Tree& tree, const Ray& ray, Test test)
         const Entry entry = stack.back();
         stack.pop_back();
         if (!(entry.t <= limit)) continue; // something nearer has been found meanwhile
-        ++work.nodes;
+        ++counts.nodes;
         if (tree.is_leaf(entry.node)) {
             const std::uint32_t leaf = tree.leaf(entry.node);
             for (std::uint32_t i = tree.leaf_begin[leaf]; i < tree.leaf_begin[leaf + 1]; ++i) {
-                ++work.primitives;
+                ++counts.primitives;
                 limit = test(tree.primitives[i]);
             }
             continue;
@@ -114,7 +114,7 @@ Work traverse(const Tree& tree, const Ray& ray, Test test)
         push(a.t <= b.t ? b : a);
         push(a.t <= b.t ? a : b);
     }
-    return work;
+    return counts;
 }
 
 } // namespace ref

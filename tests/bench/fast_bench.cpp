@@ -9,11 +9,11 @@
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/hploc.h"
-#include "cuda/trees/sah_cost.h"
 #include "cuda/trees/scene_geometry.h"
 #include "cuda/trees/surfaces.h"
 #include "tests/bench/bumpy_sphere.h"
 #include "tests/bench/embree.h"
+#include "cuda/trees/sah_cost.h"
 
 #include <benchmark/benchmark.h>
 
@@ -21,52 +21,52 @@
 
 namespace {
 
-using gpu::Vec3;
+using fast::Vec3;
 
 template <class Code>
 void build(benchmark::State& state, const scenes::Scene& scene, unsigned threads, bool cluster)
 {
-    const std::vector<gpu::Box> boxes = gpu::boxes_of(scene);
+    const std::vector<fast::Aabb> boxes = fast::boxes_of(scene);
     const auto n = static_cast<std::uint32_t>(boxes.size());
-    gpu::HostMemory memory;
-    gpu::ThreadedExecutor executor(threads);
-    gpu::Lbvh<Code> tree(memory, executor, n);
-    gpu::Hploc clustered(memory, cluster ? n : 0);
+    fast::HostMemory memory;
+    fast::ThreadedExecutor executor(threads);
+    fast::Lbvh<Code> tree(memory, executor, n);
+    fast::Hploc clustered(memory, cluster ? n : 0);
     for (auto _ : state) {
         tree.build(executor, boxes);
         if (cluster) clustered.build(executor, boxes, tree);
     }
     state.counters["sah_cost"] =
-        gpu::sah_cost(cluster ? clustered.nodes() : std::as_const(tree).nodes());
+        fast::sah_cost(cluster ? clustered.nodes() : std::as_const(tree).nodes());
 }
 
 /// Rays from outside to points of the bounding box, and in random directions from what they hit.
 struct Rays {
-    std::vector<gpu::Ray> camera;
-    std::vector<gpu::Ray> diffuse;
+    std::vector<fast::Ray> camera;
+    std::vector<fast::Ray> diffuse;
 };
 
 /// A scene with the trees of the fast path, ready for rays.
 class Traceable {
 public:
     explicit Traceable(const scenes::Scene& scene)
-        : triangles_(gpu::triangles_of(scene)), count_(static_cast<std::uint32_t>(triangles_.size())),
-          tree_(memory_, gpu::SerialExecutor{}, count_), clustered_(memory_, count_), ordered_(count_)
+        : triangles_(fast::triangles_of(scene)), count_(static_cast<std::uint32_t>(triangles_.size())),
+          tree_(memory_, fast::SerialExecutor{}, count_), clustered_(memory_, count_), ordered_(count_)
     {
-        gpu::SerialExecutor executor;
-        const std::vector<gpu::Box> boxes = gpu::boxes_of(scene);
+        fast::SerialExecutor executor;
+        const std::vector<fast::Aabb> boxes = fast::boxes_of(scene);
         tree_.build(executor, boxes);
         clustered_.build(executor, boxes, tree_);
-        executor(count_, gpu::OrderTriangles{triangles_, tree_.primitives(), ordered_});
+        executor(count_, fast::OrderTriangles{triangles_, tree_.primitives(), ordered_});
         for (const bool clustered : {false, true})
             wide_.emplace_back(memory_, executor, narrow(clustered).nodes, tree_.primitives(),
                                triangles_);
     }
-    [[nodiscard]] gpu::TreeView narrow(bool clustered) const
+    [[nodiscard]] fast::TreeView narrow(bool clustered) const
     {
         return {clustered ? clustered_.nodes() : tree_.nodes(), tree_.primitives(), ordered_};
     }
-    [[nodiscard]] gpu::Surfaces<false> wide(bool clustered) const
+    [[nodiscard]] fast::Surfaces<false> wide(bool clustered) const
     {
         return {wide_[clustered ? 1 : 0].view(), {}, count_};
     }
@@ -77,13 +77,13 @@ public:
     }
 
 private:
-    gpu::HostMemory memory_;
-    std::vector<gpu::Triangle> triangles_;
+    fast::HostMemory memory_;
+    std::vector<fast::Triangle> triangles_;
     std::uint32_t count_;
-    gpu::Lbvh<std::uint64_t> tree_;
-    gpu::Hploc clustered_;
-    std::vector<gpu::WideTree> wide_;
-    std::vector<gpu::Triangle> ordered_;
+    fast::Lbvh<std::uint64_t> tree_;
+    fast::Hploc clustered_;
+    std::vector<fast::WideTree> wide_;
+    std::vector<fast::Triangle> ordered_;
 };
 
 Rays make_rays(const Traceable& scene)
@@ -92,14 +92,14 @@ Rays make_rays(const Traceable& scene)
     std::mt19937 random(1);
     std::uniform_real_distribution<float> uniform(-1, 1);
     const auto in_cube = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
-    const gpu::Surfaces<false> tree = scene.wide(true);
+    const fast::Surfaces<false> tree = scene.wide(true);
     Rays rays;
     for (int i = 0; i < 100000; ++i) {
         const Vec3 eye(2.9f, 3.6f, 3.8f);
         rays.camera.push_back({eye, infinity, 1.1f * in_cube() - eye});
-        const gpu::Ray& ray = rays.camera.back();
-        const gpu::Hit hit = closest_hit(tree, ray);
-        if (hit.primitive == gpu::no_primitive) continue;
+        const fast::Ray& ray = rays.camera.back();
+        const fast::Hit hit = intersect(tree, ray);
+        if (hit.primitive == fast::no_primitive) continue;
         Vec3 normal = scene.normal(hit.primitive);
         if (glm::dot(normal, ray.direction) > 0) normal = -normal;
         Vec3 in_ball = in_cube();
@@ -113,44 +113,44 @@ Rays make_rays(const Traceable& scene)
 
 /// Leaves of a narrow tree: what a ray hits there.
 template <class Found>
-void intersect(const gpu::TreeView& tree, std::uint32_t leaf, const gpu::Ray& ray,
-               const gpu::ShearedRay& sheared, const Found& found)
+void intersect(const fast::TreeView& tree, std::uint32_t leaf, const fast::Ray& ray,
+               const fast::ShearedRay& sheared, const Found& found)
 {
-    gpu::Hit hit{0, tree.primitives[leaf], 0, 0};
+    fast::Hit hit{0, tree.primitives[leaf], 0, 0};
     if (intersect_triangle(sheared, tree.triangles[leaf], ray.t_max, hit)) found(hit);
 }
 
 /// The same for groups of a wide tree.
 template <class Found>
-void intersect(const gpu::Surfaces<false>& tree, std::uint32_t group, const gpu::Ray& ray,
-               const gpu::ShearedRay& sheared, const Found& found)
+void intersect(const fast::Surfaces<false>& tree, std::uint32_t group, const fast::Ray& ray,
+               const fast::ShearedRay& sheared, const Found& found)
 {
     intersect_group(tree, group, ray, sheared, found);
 }
 
-const gpu::TreeView& nodes_of(const gpu::TreeView& tree)
+const fast::TreeView& nodes_of(const fast::TreeView& tree)
 {
     return tree;
 }
 
-const gpu::WideTreeView& nodes_of(const gpu::Surfaces<false>& tree)
+const fast::WideTreeView& nodes_of(const fast::Surfaces<false>& tree)
 {
     return tree.tree;
 }
 
 /// Nodes and leaves (or groups) that a ray visits on average; and nodes, if no hit stops it.
 template <class View>
-void count_visits(benchmark::State& state, const View& tree, const std::vector<gpu::Ray>& rays)
+void count_visits(benchmark::State& state, const View& tree, const std::vector<fast::Ray>& rays)
 {
     std::uint64_t nodes = 0;
     std::uint64_t leaves = 0;
     std::uint64_t unstopped = 0;
-    for (const gpu::Ray& ray : rays) {
-        const gpu::ShearedRay sheared(ray);
-        gpu::Hit best{ray.t_max, gpu::no_primitive, 0, 0};
+    for (const fast::Ray& ray : rays) {
+        const fast::ShearedRay sheared(ray);
+        fast::Hit best{ray.t_max, fast::no_primitive, 0, 0};
         const auto test = [&](std::uint32_t leaf) {
             ++leaves;
-            intersect(tree, leaf, ray, sheared, [&](const gpu::Hit& hit) {
+            intersect(tree, leaf, ray, sheared, [&](const fast::Hit& hit) {
                 if (comes_before(hit, best)) best = hit;
             });
             return best.t;
@@ -168,21 +168,22 @@ void count_visits(benchmark::State& state, const View& tree, const std::vector<g
 }
 
 template <class View>
-void trace(benchmark::State& state, const View& tree, const std::vector<gpu::Ray>& rays)
+void trace(benchmark::State& state, const View& tree, const std::vector<fast::Ray>& rays)
 {
-    std::vector<gpu::Hit> hits(rays.size());
-    gpu::SerialExecutor executor;
+    std::vector<fast::Hit> hits(rays.size());
+    fast::SerialExecutor executor;
     for (auto _ : state)
-        executor(static_cast<std::uint32_t>(rays.size()), gpu::FindClosestHits<View>{tree, rays, hits});
+        executor(static_cast<std::uint32_t>(rays.size()), fast::IntersectRays<View>{tree, rays, hits});
     const auto traced = static_cast<double>(state.iterations()) * static_cast<double>(rays.size());
     state.counters["rays"] = benchmark::Counter(traced, benchmark::Counter::kIsRate);
     count_visits(state, tree, rays);
 }
 
-std::vector<ref::Ray> in_double(const std::vector<gpu::Ray>& rays)
+std::vector<ref::Ray> in_double(const std::vector<fast::Ray>& rays)
 {
     std::vector<ref::Ray> result;
-    for (const gpu::Ray& ray : rays) result.push_back({ref::Vec3(ray.origin), ref::Vec3(ray.direction)});
+    for (const fast::Ray& ray : rays)
+        result.push_back({ref::Vec3(ray.origin), ref::Vec3(ray.direction)});
     return result;
 }
 

@@ -3,7 +3,7 @@
 # report for sm_90. Occupancy: of 2048 threads of a multiprocessor with 65,536 registers, in blocks of 256.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-file=${1:-cuda/trees/device_lbvh.cu}
+file=${1:-cuda/launch/device_lbvh.cu}
 report=$("${CUDACXX:-nvcc}" -std=c++20 -arch=sm_90 --expt-relaxed-constexpr --fmad=false -I. -Xptxas -v -cubin \
     -o /dev/null "$file" 2>&1 | c++filt)
 echo "| kernel | registers | stack bytes | spilled bytes (stores, loads) | occupancy |"
@@ -16,6 +16,6 @@ awk '
         granted = int((registers + 7) / 8) * 8       # registers are given out by eights
         threads = int(65536 / (granted * 256)) * 256
         if (threads > 2048) threads = 2048
-        gsub(/gpu::/, "", kernel)
+        gsub(/fast::/, "", kernel)
         printf "| `%s` | %d | %d | %d, %d | %d%% |\n", kernel, registers, stack, stores, loads, 100 * threads / 2048
     }' <<<"$report" | sort -u

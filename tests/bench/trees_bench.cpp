@@ -77,13 +77,13 @@ void trace_rays(benchmark::State& state, const scenes::Scene& scene, Builder bui
                 const std::vector<ref::Ray>& rays)
 {
     const ref::Geometry geometry(scene, builder);
-    ref::Work work;
+    ref::TraversalCounts counts;
     for (auto _ : state)
-        for (const ref::Ray& ray : rays) benchmark::DoNotOptimize(intersect(geometry, ray, &work));
+        for (const ref::Ray& ray : rays) benchmark::DoNotOptimize(intersect(geometry, ray, &counts));
     const auto traced = static_cast<double>(state.iterations()) * static_cast<double>(rays.size());
     state.counters["rays"] = benchmark::Counter(traced, benchmark::Counter::kIsRate);
-    state.counters["nodes_per_ray"] = static_cast<double>(work.nodes) / traced;
-    state.counters["primitives_per_ray"] = static_cast<double>(work.primitives) / traced;
+    state.counters["nodes_per_ray"] = static_cast<double>(counts.nodes) / traced;
+    state.counters["primitives_per_ray"] = static_cast<double>(counts.primitives) / traced;
 }
 
 void register_scene(const std::shared_ptr<const scenes::Scene>& scene)

@@ -1,6 +1,6 @@
 // `plumbline render --device host|cuda`: the same options, files and manners as the reference.
 
-#include "cuda/device.h"
+#include "cuda/launch/device.h"
 #include "images/exr.h"
 #include "tests/cli/run_program.h"
 
@@ -120,7 +120,7 @@ TEST_F(FastRender, DoesNotGoOnFromAnotherDevicesPicture)
 
 TEST_F(FastRender, SaysWhyThereIsNoGpu)
 {
-    const gpu::Device device = gpu::find_device();
+    const fast::Device device = fast::find_device();
     if (device.usable) GTEST_SKIP() << "there is one: " << device.description;
     const Outcome outcome = run(render(out, "4", "cuda"));
     EXPECT_EQ(outcome.status, 2);

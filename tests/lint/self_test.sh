@@ -20,9 +20,9 @@ expect() {
 }
 
 expect pass includes.sh ref/trees/a.h '#include "scenes/scene.h"'
-expect pass includes.sh cuda/trees/a.cuh '#include "cuda/device.h"'
+expect pass includes.sh cuda/trees/a.cuh '#include "cuda/launch/device.h"'
 expect pass includes.sh tests/a.cpp '#include "ref/trees/ray.h"'
-expect fail includes.sh ref/trees/a.h '#include "cuda/device.h"'
+expect fail includes.sh ref/trees/a.h '#include "cuda/launch/device.h"'
 expect fail includes.sh cuda/trees/a.cu '# include "ref/trees/ray.h"'
 expect fail includes.sh scenes/a.h '#include "images/image.h"'
 expect fail includes.sh golden/a.h '#include "scenes/scene.h"'
@@ -30,7 +30,7 @@ expect pass includes.sh golden/a.h '#include "images/image.h"'
 expect fail includes.sh images/a.h '#include "golden/golden.h"'
 expect fail includes.sh ref/a.h '#include "golden/golden.h"'
 expect fail includes.sh ref/trees/a.cpp '#include "cli/command.h"'
-expect fail includes.sh ref/trees/a.cpp '#include "../../cuda/device.h"'
+expect fail includes.sh ref/trees/a.cpp '#include "../../cuda/launch/device.h"'
 expect fail includes.sh ref/trees/a.cpp '#include "ray.h"'
 expect fail includes.sh cli/a.cpp '#include "tests/a.h"'
 somebody=/home

@@ -1,7 +1,7 @@
 // The fast path against the goldens, which the reference made: every scene, by every integrator and
 // executor.
 
-#include "cuda/transport/renderer.h"
+#include "cuda/launch/renderer.h"
 #include "scenes/requirements.h"
 #include "tests/cuda/parallel/on_device.h"
 #include "tests/renders/judged.h"
@@ -18,8 +18,8 @@ using renders_test::RenderBatch;
 
 enum class Where { one_thread, two_threads, two_threads_deterministic, device };
 
-std::unique_ptr<gpu::Renderer> fast_renderer(const Plan& plan, gpu::Integrator integrator, Where where,
-                                             std::uint64_t seed)
+std::unique_ptr<fast::Renderer> fast_renderer(const Plan& plan, fast::Integrator integrator, Where where,
+                                              std::uint64_t seed)
 {
     images::RenderOptions options;
     options.integrator = integrator;
@@ -28,15 +28,15 @@ std::unique_ptr<gpu::Renderer> fast_renderer(const Plan& plan, gpu::Integrator i
     options.batch_size = plan.batch_size;
     options.deterministic = where == Where::two_threads_deterministic;
     if (where == Where::device)
-        return gpu::device_renderer(plan.scene, plan.width, plan.height, options);
-    return gpu::host_renderer(plan.scene, plan.width, plan.height, options,
-                              where == Where::one_thread ? 1 : 2);
+        return fast::device_renderer(plan.scene, plan.width, plan.height, options);
+    return fast::host_renderer(plan.scene, plan.width, plan.height, options,
+                               where == Where::one_thread ? 1 : 2);
 }
 
-Judged judge(const std::string& name, gpu::Integrator integrator, Where where, golden::Method method)
+Judged judge(const std::string& name, fast::Integrator integrator, Where where, golden::Method method)
 {
     const auto make = [&](const Plan& plan) -> RenderBatch {
-        std::shared_ptr<gpu::Renderer> renderer;
+        std::shared_ptr<fast::Renderer> renderer;
         std::optional<std::uint64_t> made_for;
         return [=](std::uint64_t seed, std::uint64_t number) mutable {
             if (made_for != seed) renderer = fast_renderer(plan, integrator, where, seed);
@@ -44,9 +44,9 @@ Judged judge(const std::string& name, gpu::Integrator integrator, Where where, g
             return renderer->render_batch(number, {})->mean;
         };
     };
-    const std::string estimator = integrator == gpu::Integrator::bdpt   ? "bdpt"
-                                  : integrator == gpu::Integrator::path ? "path"
-                                                                        : "light";
+    const std::string estimator = integrator == fast::Integrator::bdpt   ? "bdpt"
+                                  : integrator == fast::Integrator::path ? "path"
+                                                                         : "light";
     Judged judged = renders_test::judged(name, std::function<RenderBatch(const Plan&)>(make), estimator,
                                          method, renders_test::short_options());
     renders_test::print(name, "fast " + estimator, judged);
@@ -55,7 +55,7 @@ Judged judge(const std::string& name, gpu::Integrator integrator, Where where, g
 
 void expect_bdpt_agrees(const std::string& name, Where where)
 {
-    const Judged judged = judge(name, gpu::Integrator::bdpt, where, golden::Method::ranks);
+    const Judged judged = judge(name, fast::Integrator::bdpt, where, golden::Method::ranks);
     EXPECT_EQ(judged.comparison.verdict, golden::Verdict::pass)
         << renders_test::with_report(name, "fast_bdpt", judged);
 }
@@ -63,7 +63,7 @@ void expect_bdpt_agrees(const std::string& name, Where where)
 /// Another estimator than the golden's: where its noise is too skewed the comparison is inconclusive.
 void expect_path_does_not_disagree(const std::string& name, Where where)
 {
-    const Judged judged = judge(name, gpu::Integrator::path, where, golden::Method::welch);
+    const Judged judged = judge(name, fast::Integrator::path, where, golden::Method::welch);
     if (name == "point_in_glass") {
         // No walk from the eye meets a point, and no shadow ray bends: that light is not there for it.
         EXPECT_EQ(judged.comparison.verdict, golden::Verdict::fail);
@@ -78,7 +78,7 @@ void expect_light_does_not_disagree(const std::string& name, Where where)
     const auto needs = scenes::requirements(scenes::read_scene(renders_test::scene_of(name)));
     if (needs.bsdfs.contains(scenes::Bsdf::mirror) || needs.bsdfs.contains(scenes::Bsdf::glass))
         GTEST_SKIP() << "light that the camera sees by mirrors and glass alone makes no light image";
-    const Judged judged = judge(name, gpu::Integrator::light, where, golden::Method::welch);
+    const Judged judged = judge(name, fast::Integrator::light, where, golden::Method::welch);
     EXPECT_NE(judged.comparison.verdict, golden::Verdict::fail)
         << renders_test::with_report(name, "fast_light", judged);
 }

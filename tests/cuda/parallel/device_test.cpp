@@ -1,4 +1,4 @@
-#include "cuda/device.h"
+#include "cuda/launch/device.h"
 #include "tests/cuda/parallel/on_device.h"
 
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@ using cuda_test::OnDevice;
 
 TEST(Device, IsDescribedInOneLineWhetherThereIsOneOrNot)
 {
-    const gpu::Device device = gpu::find_device();
+    const fast::Device device = fast::find_device();
     EXPECT_EQ(device.description.find('\n'), std::string::npos);
-    EXPECT_EQ(gpu::describe_device(), device.description);
+    EXPECT_EQ(fast::describe_device(), device.description);
     if (!device.usable) {
         EXPECT_TRUE(device.description == "built without nvcc" ||
                     device.description.find("no CUDA device found: ") != std::string::npos ||
@@ -24,7 +24,7 @@ TEST(Device, IsDescribedInOneLineWhetherThereIsOneOrNot)
 
 TEST_F(OnDevice, TheDeviceRunsOurMachineCode)
 {
-    const gpu::Device device = gpu::find_device();
+    const fast::Device device = fast::find_device();
     EXPECT_TRUE(device.usable) << device.description;
     EXPECT_NE(device.description.find("sm_"), std::string::npos) << device.description;
 }

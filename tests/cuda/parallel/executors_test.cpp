@@ -22,7 +22,7 @@ struct CountCalls {
     void operator()(std::uint32_t index) const { ++calls[index]; }
 };
 
-template <gpu::Executor E>
+template <fast::Executor E>
 void expect_one_call_per_index(E& executor)
 {
     for (const std::uint32_t count : {0u, 1u, 2u, 3u, 7u, 8u, 9u, 100u, 1000u}) {
@@ -40,11 +40,11 @@ std::uint32_t the_last(std::uint32_t ready)
 
 TEST(Executors, CallTheKernelOnceForEveryIndex)
 {
-    gpu::SerialExecutor serial;
+    fast::SerialExecutor serial;
     expect_one_call_per_index(serial);
     for (const std::uint32_t threads : {1u, 2u, 3u, 8u})
         for (const std::uint32_t block : {1u, 5u, 4096u}) {
-            gpu::ThreadedExecutor threaded(threads, block);
+            fast::ThreadedExecutor threaded(threads, block);
             EXPECT_EQ(threaded.width(), threads);
             expect_one_call_per_index(threaded);
         }
@@ -61,7 +61,7 @@ struct Rotate {
 
 TEST(Executors, ShowEachLaunchWhatTheOneBeforeWrote) // ThreadSanitizer sees it if that were luck
 {
-    gpu::ThreadedExecutor executor(4, 1);
+    fast::ThreadedExecutor executor(4, 1);
     std::vector<std::uint32_t> a(64);
     std::iota(a.begin(), a.end(), 0);
     const std::vector<std::uint32_t> start = a;
@@ -80,7 +80,7 @@ struct NoteThread {
 
 TEST(ThreadedExecutor, GivesNeighboursToDifferentThreadsWhenBlocksAreOfOne)
 {
-    gpu::ThreadedExecutor executor(3, 1);
+    fast::ThreadedExecutor executor(3, 1);
     std::vector<std::thread::id> thread(30);
     executor(30, NoteThread{thread});
     for (std::size_t i = 0; i + 1 < 30; ++i) EXPECT_NE(thread[i], thread[i + 1]);
@@ -90,7 +90,7 @@ TEST(ThreadedExecutor, GivesNeighboursToDifferentThreadsWhenBlocksAreOfOne)
 
 TEST(ThreadedExecutor, SharesOutLargeLaunchesAndSmallOnes)
 {
-    gpu::ThreadedExecutor executor(4, 4096);
+    fast::ThreadedExecutor executor(4, 4096);
     for (const std::uint32_t count : {4u, 1000u, 100000u}) {
         std::vector<std::thread::id> thread(count);
         executor(count, NoteThread{thread});
@@ -106,7 +106,7 @@ struct Count {
     void operator()(std::uint32_t index) const
     {
         for (std::uint32_t step = 0; step < steps; ++step) {
-            gpu::schedule_point();
+            fast::schedule_point();
             trace[taken++] = index;
         }
     }

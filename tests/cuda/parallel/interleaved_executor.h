@@ -39,7 +39,7 @@ public:
     InterleavedExecutor(const InterleavedExecutor&) = delete;
     InterleavedExecutor& operator=(const InterleavedExecutor&) = delete;
 
-    template <gpu::Kernel K>
+    template <fast::Kernel K>
     void operator()(std::uint32_t count, const K& kernel)
     {
         if (count == 0) return;
@@ -57,7 +57,7 @@ private:
     {
         self_ = thread;
         current_ = this;
-        gpu::schedule_point = [] { current_->yield(); };
+        fast::schedule_point = [] { current_->yield(); };
         for (;;) {
             turns_[thread]->acquire();
             if (!kernel_) return;

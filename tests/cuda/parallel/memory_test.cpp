@@ -12,10 +12,10 @@
 
 namespace {
 
-using gpu::Buffer;
+using fast::Buffer;
 
 /// Has so many bytes, and knows what it gave out.
-class SmallMemory : public gpu::Memory {
+class SmallMemory : public fast::Memory {
 public:
     explicit SmallMemory(std::size_t bytes) : free(bytes) {}
     void release(void* block) noexcept override
@@ -44,7 +44,7 @@ private:
     [[nodiscard]] std::size_t free_bytes() const override { return free; }
     [[nodiscard]] std::string name() const override { return "a small memory"; }
 
-    gpu::HostMemory host_;
+    fast::HostMemory host_;
     std::map<void*, std::size_t> held_;
 };
 
@@ -69,7 +69,7 @@ TEST(Buffer, GivesItsMemoryBackOnceAndOnlyOnce)
 
 TEST(Buffer, KeepsWhatIsWritten)
 {
-    gpu::HostMemory memory;
+    fast::HostMemory memory;
     const std::vector<int> numbers = {3, 1, 4, 1, 5};
     Buffer<int> buffer(memory, numbers);
     EXPECT_EQ(buffer.read(5), numbers);
@@ -85,7 +85,7 @@ TEST(OutOfMemory, NamesTheMemoryTheBytesWantedAndTheBytesFree)
     try {
         const Buffer<float> too_much(memory, 200);
         FAIL() << "800 bytes out of 700";
-    } catch (const gpu::OutOfMemory& error) {
+    } catch (const fast::OutOfMemory& error) {
         EXPECT_STREQ(error.what(), "a small memory is exhausted: 800 bytes wanted, 700 bytes free");
     }
     EXPECT_EQ(memory.blocks(), 1u);
@@ -95,18 +95,18 @@ TEST(OutOfMemory, WhereverItHappensATreeGivesEverythingBackAndTheNextOneIsBuilt)
 {
     trees_test::Random random(1);
     const auto boxes = cuda_test::rounded(trees_test::boxes(trees_test::Kind::uniform, 100, random));
-    gpu::SerialExecutor executor;
+    fast::SerialExecutor executor;
     SmallMemory memory(1 << 20);
     std::size_t needed = 0;
     {
-        const gpu::Lbvh<std::uint32_t> tree(memory, executor, 100);
+        const fast::Lbvh<std::uint32_t> tree(memory, executor, 100);
         needed = (1 << 20) - memory.free;
     }
     // Every amount that is a little too small for one of the buffers.
     int failures = 0;
     for (std::size_t bytes = 0; bytes < needed; bytes += 100) {
         memory.free = bytes;
-        EXPECT_THROW(gpu::Lbvh<std::uint32_t>(memory, executor, 100), gpu::OutOfMemory) << bytes;
+        EXPECT_THROW(fast::Lbvh<std::uint32_t>(memory, executor, 100), fast::OutOfMemory) << bytes;
         EXPECT_EQ(memory.free, bytes);
         EXPECT_EQ(memory.blocks(), 0u);
         ++failures;
@@ -114,20 +114,20 @@ TEST(OutOfMemory, WhereverItHappensATreeGivesEverythingBackAndTheNextOneIsBuilt)
     EXPECT_GT(failures, 50);
 
     memory.free = needed;
-    gpu::Lbvh<std::uint32_t> tree(memory, executor, 100);
+    fast::Lbvh<std::uint32_t> tree(memory, executor, 100);
     EXPECT_EQ(memory.free, 0u); // nothing is left for a build to allocate
     tree.build(executor, boxes);
-    EXPECT_EQ(tree.first_rejected(), gpu::no_primitive);
+    EXPECT_EQ(tree.first_rejected(), fast::no_primitive);
 }
 
 TEST(Lbvh, RefusesMoreBoxesThanItHasRoomFor)
 {
-    gpu::HostMemory memory;
-    gpu::SerialExecutor executor;
-    gpu::Lbvh<std::uint32_t> tree(memory, executor, 3);
-    const std::vector<gpu::Box> boxes(4, gpu::Box{gpu::Vec3(0), gpu::Vec3(1)});
+    fast::HostMemory memory;
+    fast::SerialExecutor executor;
+    fast::Lbvh<std::uint32_t> tree(memory, executor, 3);
+    const std::vector<fast::Aabb> boxes(4, fast::Aabb{fast::Vec3(0), fast::Vec3(1)});
     EXPECT_THROW(tree.build(executor, boxes), std::length_error);
-    EXPECT_THROW(gpu::Lbvh<std::uint32_t>(memory, executor, gpu::most_primitives + 1),
+    EXPECT_THROW(fast::Lbvh<std::uint32_t>(memory, executor, fast::most_primitives + 1),
                  std::invalid_argument);
 }
 

@@ -2,7 +2,7 @@
 
 // Tests that need a GPU.
 
-#include "cuda/device.h"
+#include "cuda/launch/device.h"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 namespace cuda_test {
 
 /// Whether tests that need a GPU can run; found out once.
-inline const gpu::Device& found_device()
+inline const fast::Device& found_device()
 {
-    static const gpu::Device device = gpu::find_device();
+    static const fast::Device device = fast::find_device();
     return device;
 }
 

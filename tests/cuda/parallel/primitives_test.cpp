@@ -15,7 +15,7 @@
 namespace {
 
 /// Sorts on an executor; returns keys and values.
-template <class Key, gpu::Executor E>
+template <class Key, fast::Executor E>
 std::pair<std::vector<Key>, std::vector<std::uint32_t>> sorted(E& executor, std::vector<Key> keys,
                                                                int bits)
 {
@@ -24,9 +24,9 @@ std::pair<std::vector<Key>, std::vector<std::uint32_t>> sorted(E& executor, std:
     std::vector<Key> keys_beside(keys.size());
     std::vector<std::uint32_t> values_beside(keys.size());
     std::vector<std::uint32_t> scratch(
-        gpu::sort_scratch<Key, std::uint32_t>(executor, static_cast<std::uint32_t>(keys.size()), bits));
-    gpu::Alternating<Key> k{keys, keys_beside};
-    gpu::Alternating<std::uint32_t> v{values, values_beside};
+        fast::sort_scratch<Key, std::uint32_t>(executor, static_cast<std::uint32_t>(keys.size()), bits));
+    fast::Alternating<Key> k{keys, keys_beside};
+    fast::Alternating<std::uint32_t> v{values, values_beside};
     radix_sort(executor, k, v, bits, scratch);
     return {{k.current.begin(), k.current.end()}, {v.current.begin(), v.current.end()}};
 }
@@ -44,7 +44,7 @@ void expect_stable_sort(std::uint32_t threads)
     std::vector<std::uint32_t> expected(n);
     for (std::uint32_t i = 0; i < n; ++i) expected[i] = i;
     std::ranges::stable_sort(expected, {}, [&](std::uint32_t i) { return keys[i]; });
-    gpu::ThreadedExecutor executor(threads);
+    fast::ThreadedExecutor executor(threads);
     const auto [sorted_keys, sorted_values] = sorted(executor, keys, bits);
     RC_ASSERT(sorted_values == expected);
     for (std::size_t i = 0; i < n; ++i) RC_ASSERT(sorted_keys[i] == keys[expected[i]]);
@@ -68,10 +68,10 @@ struct Minimum {
 
 RC_GTEST_PROP(MapReduce, CombinesAllElements, (std::vector<std::uint32_t> elements))
 {
-    gpu::ThreadedExecutor executor(*rc::gen::inRange<std::uint32_t>(1, 5));
+    fast::ThreadedExecutor executor(*rc::gen::inRange<std::uint32_t>(1, 5));
     const auto count = static_cast<std::uint32_t>(elements.size());
     std::vector<std::uint32_t> scratch(
-        gpu::reduce_scratch(executor, count, Identity{elements}, Minimum{}, ~0u));
+        fast::reduce_scratch(executor, count, Identity{elements}, Minimum{}, ~0u));
     std::vector<std::uint32_t> result(1);
     map_reduce(executor, count, Identity{elements}, Minimum{}, ~0u, std::span(scratch),
                std::span(result));
@@ -82,8 +82,8 @@ RC_GTEST_PROP(MapReduce, CombinesAllElements, (std::vector<std::uint32_t> elemen
 RC_GTEST_PROP(Chunks, CoverEveryElementOnceAndInOrder, ())
 {
     const auto count = *rc::gen::arbitrary<std::uint32_t>();
-    const gpu::Chunks chunks{*rc::gen::element(count, 0u, 1u, ~0u),
-                             *rc::gen::inRange<std::uint32_t>(1, 50)};
+    const fast::Chunks chunks{*rc::gen::element(count, 0u, 1u, ~0u),
+                              *rc::gen::inRange<std::uint32_t>(1, 50)};
     RC_ASSERT(chunks.begin(0) == 0u);
     for (std::uint32_t chunk = 0; chunk < chunks.chunks; ++chunk)
         RC_ASSERT(chunks.begin(chunk) <= chunks.end(chunk));

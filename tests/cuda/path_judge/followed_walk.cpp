@@ -11,19 +11,21 @@ namespace {
 
 using ref::Vec3;
 
-Verdict verdict_on(const ref::World& world, const gpu::Ray& ray, std::uint32_t primitive, double slack)
+Verdict verdict_on(const ref::World& world, const fast::Ray& ray, std::uint32_t primitive, double slack)
 {
     const scenes::Scene& scene = world.scene;
     if (primitive < scene.triangles.size()) {
         const auto& v = scene.triangles[primitive].vertices;
-        return verdict(ray, gpu::Triangle{{gpu::Vec3(v[0]), gpu::Vec3(v[1]), gpu::Vec3(v[2])}}, slack);
+        return verdict(ray, fast::Triangle{{fast::Vec3(v[0]), fast::Vec3(v[1]), fast::Vec3(v[2])}},
+                       slack);
     }
     const auto& sphere = scene.spheres[primitive - scene.triangles.size()];
-    return verdict(ray, gpu::Sphere{gpu::Vec3(sphere.center), static_cast<float>(sphere.radius)}, slack);
+    return verdict(ray, fast::Sphere{fast::Vec3(sphere.center), static_cast<float>(sphere.radius)},
+                   slack);
 }
 
 /// What `ray` found, or nothing, against what the reference finds by the same ray.
-void require_closest(const ref::World& world, const gpu::Ray& ray, double slack,
+void require_closest(const ref::World& world, const fast::Ray& ray, double slack,
                      std::optional<std::uint32_t> found)
 {
     const auto closest = ref::intersect(world.geometry, exactly(ray));
@@ -36,8 +38,8 @@ void require_closest(const ref::World& world, const gpu::Ray& ray, double slack,
 }
 
 /// That the point found is where `ray` meets its primitive.
-void require_position(const ref::World& world, const gpu::Ray& ray, double slack,
-                      const gpu::SurfacePoint& point)
+void require_position(const ref::World& world, const fast::Ray& ray, double slack,
+                      const fast::SurfacePoint& point)
 {
     const Verdict verdict = verdict_on(world, ray, point.primitive, slack);
     const Vec3 d(ray.direction);
@@ -70,7 +72,7 @@ double angle_between(const Vec3& a, const Vec3& b)
 }
 
 /// A vertex as the floats have it; alpha as the reference does.
-ref::Vertex vertex_of(const Setting& setting, const gpu::WalkVertex& vertex, const NextStep& step)
+ref::Vertex vertex_of(const Setting& setting, const fast::WalkVertex& vertex, const NextStep& step)
 {
     for (int i = 0; i < 3; ++i)
         require(std::abs(vertex.alpha[i] - step.alpha[i]) <= step.alpha_error * step.alpha[i] + 0x1p-100,
@@ -114,9 +116,9 @@ void follow(const Setting& setting, ref::Transport carried, const WatchedSample:
             throw Undecided("too little light for floats");
         if (!met && !recorded.missed) require_in_plane(world, steps[0]);
 
-        const gpu::Vec3 d = met ? -recorded.vertices[n - 1].wo : recorded.missed->ray.direction;
+        const fast::Vec3 d = met ? -recorded.vertices[n - 1].wo : recorded.missed->ray.direction;
         step = step_taken(steps, Vec3(d));
-        const gpu::Ray ray{gpu::Vec3(step.origin), std::numeric_limits<float>::infinity(), d};
+        const fast::Ray ray{fast::Vec3(step.origin), std::numeric_limits<float>::infinity(), d};
         if (!met) {
             require_closest(world, ray, step.slack, std::nullopt);
             if (carried == ref::Transport::radiance && world.scene.environment) {
@@ -127,7 +129,7 @@ void follow(const Setting& setting, ref::Transport carried, const WatchedSample:
             }
             return;
         }
-        const gpu::WalkVertex& vertex = recorded.vertices[n - 1];
+        const fast::WalkVertex& vertex = recorded.vertices[n - 1];
         require(vertex.n == static_cast<int>(n), "the number of a vertex");
         require_closest(world, ray, step.slack, vertex.point.primitive);
         require_on_surface(world, vertex.point);

@@ -50,7 +50,7 @@ struct Setting {
 ref::Uniforms float_uniforms(const ref::SampleId& id, ref::Event event, std::uint32_t j = 0);
 
 /// The surface at `position`, with the normal and the clearance that the floats have there.
-ref::SurfacePoint surface_of(const ref::World& world, const gpu::SurfacePoint& point);
+ref::SurfacePoint surface_of(const ref::World& world, const fast::SurfacePoint& point);
 
 struct Range {
     double low, high;
@@ -62,7 +62,7 @@ Range clearance_of(const ref::World& world, std::uint32_t primitive, const ref::
                    const ref::Vec3& normal);
 
 /// Throws Disagreement unless `point` lies on its primitive and has its normal and a sensible clearance.
-void require_on_surface(const ref::World& world, const gpu::SurfacePoint& point);
+void require_on_surface(const ref::World& world, const fast::SurfacePoint& point);
 
 /// Bound on the error of the normal of a primitive, where it is computed from the primitive itself.
 double normal_error(const ref::World& world, const ref::SurfacePoint& point);
@@ -103,6 +103,6 @@ void follow(const Setting& setting, ref::Transport carried, const WatchedSample:
 /// How a walk may go on from its vertex v_n: more than one way only where a lobe is drawn within
 /// rounding of the border of two; none if it ends.
 std::vector<NextStep> next_steps(const Setting& setting, ref::Transport carried,
-                                 const gpu::WalkVertex& vertex, const NextStep& last);
+                                 const fast::WalkVertex& vertex, const NextStep& last);
 
 } // namespace cuda_test

@@ -40,11 +40,11 @@ namespace {
 /// A product that becomes subnormal loses 2^-150; the factors that follow make less than 2^50 of it.
 constexpr double underflow = 0x1p-100;
 
-gpu::PathOptions float_options(const ref::PathOptions& options)
+fast::PathOptions float_options(const ref::PathOptions& options)
 {
     return {options.seed, options.max_edges,
-            options.heuristic == ref::Heuristic::power ? gpu::Heuristic::power
-                                                       : gpu::Heuristic::balance};
+            options.heuristic == ref::Heuristic::power ? fast::Heuristic::power
+                                                       : fast::Heuristic::balance};
 }
 
 [[noreturn]] void differ(const std::string& what, double floats, double reference, double bound)
@@ -107,7 +107,7 @@ void judge_strategy_of(const Setting& setting, const WatchedSample::Found* found
 
 } // namespace
 
-void judge_sample(const Setting& setting, const WatchedScene& scene, gpu::Integrator integrator,
+void judge_sample(const Setting& setting, const WatchedScene& scene, fast::Integrator integrator,
                   Tally& tally)
 {
     const WatchedSample sample = scene.sample(integrator, float_options(setting.options),
@@ -116,8 +116,8 @@ void judge_sample(const Setting& setting, const WatchedScene& scene, gpu::Integr
     ++tally.samples;
     FollowedWalk y;
     FollowedWalk z;
-    const bool light = integrator != gpu::Integrator::path;
-    const bool eye = integrator != gpu::Integrator::light;
+    const bool light = integrator != fast::Integrator::path;
+    const bool eye = integrator != fast::Integrator::light;
     try {
         if (light) {
             const int most = scene.most_light_vertices(integrator, setting.options.max_edges);

@@ -27,7 +27,7 @@ struct Tally {
 };
 
 /// Traces one sample in floats and judges everything about it. Throws Disagreement, with (s, t).
-void judge_sample(const Setting& setting, const WatchedScene& scene, gpu::Integrator integrator,
+void judge_sample(const Setting& setting, const WatchedScene& scene, fast::Integrator integrator,
                   Tally& tally);
 
 /// One strategy of a sample.
@@ -44,7 +44,7 @@ struct Judged {
 /// sight that are too close to tell. Each throws Undecided or Disagreement.
 class PathJudge {
 public:
-    PathJudge(const Setting& setting, gpu::Integrator integrator, const FollowedWalk& y,
+    PathJudge(const Setting& setting, fast::Integrator integrator, const FollowedWalk& y,
               const FollowedWalk& z)
         : setting_(setting), integrator_(integrator), y_(y), z_(z)
     {}
@@ -75,7 +75,7 @@ private:
     [[nodiscard]] LineOfSight line_from(const ref::SurfacePoint& point, const ref::Vec3& w) const;
 
     const Setting& setting_;
-    gpu::Integrator integrator_;
+    fast::Integrator integrator_;
     const FollowedWalk& y_;
     const FollowedWalk& z_;
 };

@@ -34,7 +34,7 @@ bool lobe_is_close(const scenes::Material& material, const Vec3& wo, double u_lo
 } // namespace
 
 std::vector<NextStep> next_steps(const Setting& setting, ref::Transport carried,
-                                 const gpu::WalkVertex& vertex, const NextStep& last)
+                                 const fast::WalkVertex& vertex, const NextStep& last)
 {
     const ref::SurfacePoint point = surface_of(setting.world, vertex.point);
     const auto& material = setting.world.scene.materials[point.material];

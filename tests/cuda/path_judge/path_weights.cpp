@@ -126,11 +126,11 @@ void PathJudge::weigh(const JoinedPath& x, std::size_t s, Judged& judged) const
 {
     judged.weight_error = 0;
     judged.weight = 1;
-    if (integrator_ == gpu::Integrator::light) return;
+    if (integrator_ == fast::Integrator::light) return;
     const bool power =
-        integrator_ == gpu::Integrator::bdpt && setting_.options.heuristic == ref::Heuristic::power;
+        integrator_ == fast::Integrator::bdpt && setting_.options.heuristic == ref::Heuristic::power;
     const double error = quotient_error(x) * (power ? 2 : 1);
-    const double w = integrator_ == gpu::Integrator::path
+    const double w = integrator_ == fast::Integrator::path
                          ? path_tracing_weight(x, s)
                          : mis_weight(setting_.world, setting_.options, x.vertices, s);
     const auto vertices = static_cast<double>(x.vertices.size());

@@ -7,7 +7,7 @@
 #include "tests/ref/transport/random_scene.h"
 #include "tests/ref/transport/scene_files.h"
 
-#include "cuda/transport/renderer.h"
+#include "cuda/launch/renderer.h"
 #include "scenes/read_scene.h"
 
 #include <gtest/gtest.h>
@@ -32,13 +32,13 @@ bool at_length()
 }
 
 struct Job {
-    gpu::Integrator integrator;
+    fast::Integrator integrator;
     ref::PathOptions options;
 };
 
-std::string name_of(gpu::Integrator integrator)
+std::string name_of(fast::Integrator integrator)
 {
-    using enum gpu::Integrator;
+    using enum fast::Integrator;
     return integrator == path ? "path" : integrator == bdpt ? "bdpt" : "light";
 }
 
@@ -86,13 +86,13 @@ scenes::Scene any_part_of(scenes::Scene scene)
 
 Job any_job()
 {
-    using enum gpu::Integrator;
+    using enum fast::Integrator;
     Job job{*rc::gen::element(bdpt, bdpt, path, light), {}};
     job.options.seed = *transport_test::any_word();
     job.options.heuristic = *rc::gen::element(ref::Heuristic::balance, ref::Heuristic::power);
     job.options.roulette = *rc::gen::element(true, true, false);
     job.options.max_edges = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(1, 14));
-    if (job.options.max_edges == 13 && job.options.roulette) job.options.max_edges = gpu::most_edges;
+    if (job.options.max_edges == 13 && job.options.roulette) job.options.max_edges = fast::most_edges;
     return job;
 }
 
@@ -132,7 +132,7 @@ TEST(PathsInFloat, AreThoseOfTheReferenceInRandomScenes)
 
 TEST(PathsInFloat, SeeASkyWhereThereIsNothingElse)
 {
-    using enum gpu::Integrator;
+    using enum fast::Integrator;
     scenes::Scene scene;
     scene.camera =
         scenes::Camera{scenes::Vec3(0.0),     scenes::Vec3(1, 0, 0),       scenes::Vec3(0, 1, 0),
@@ -155,9 +155,9 @@ TEST_P(PathsInFloatOf, AreThoseOfTheReference)
     const std::uint32_t count = at_length() ? 10'000 : 200;
     for (const bool roulette : {true, false}) {
         const BothWings wings(scene, roulette);
-        for (const int max_edges : {1, 2, 3, 6, 12, roulette ? gpu::most_edges : 8})
+        for (const int max_edges : {1, 2, 3, 6, 12, roulette ? fast::most_edges : 8})
             for (const auto integrator :
-                 {gpu::Integrator::bdpt, gpu::Integrator::path, gpu::Integrator::light})
+                 {fast::Integrator::bdpt, fast::Integrator::path, fast::Integrator::light})
                 for (std::uint32_t i = 0; i < count; ++i) {
                     const auto heuristic = i % 4 == 3 ? ref::Heuristic::power : ref::Heuristic::balance;
                     const Job job{integrator, {7, max_edges, roulette, heuristic}};

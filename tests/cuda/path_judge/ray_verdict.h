@@ -21,19 +21,19 @@ struct Verdict {
     double margin = 0; // of a triangle: by how much its weights may differ
 };
 
-inline ref::Ray exactly(const gpu::Ray& ray)
+inline ref::Ray exactly(const fast::Ray& ray)
 {
     return {ref::Vec3(ray.origin), ref::Vec3(ray.direction), ray.t_max};
 }
 
-inline std::array<ref::Vec3, 3> exactly(const gpu::Triangle& triangle)
+inline std::array<ref::Vec3, 3> exactly(const fast::Triangle& triangle)
 {
     const auto& v = triangle.vertices;
     return {ref::Vec3(v[0]), ref::Vec3(v[1]), ref::Vec3(v[2])};
 }
 
 /// Where 0 and t_max stand to [lowest, highest] settles the rest.
-inline Verdict settled(const gpu::Ray& ray, bool certain, double lowest, double highest,
+inline Verdict settled(const fast::Ray& ray, bool certain, double lowest, double highest,
                        double margin = 0)
 {
     return {highest > 0 && lowest < ray.t_max, certain && lowest > 0 && highest < ray.t_max, lowest,
@@ -50,7 +50,7 @@ constexpr Verdict impossible{false, false, 0, 0, 0};
 // this one's origin and passed within that distance of it: across it that is 3 slack after the shear,
 // whose factors are at most 1, and along it 2 slack over the length of the direction, the largest
 // component of which is 0.57 of it.
-inline Verdict verdict(const gpu::Ray& ray, const gpu::Triangle& triangle, double slack = 0)
+inline Verdict verdict(const fast::Ray& ray, const fast::Triangle& triangle, double slack = 0)
 {
     constexpr double u = 0x1p-24;
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ inline Verdict verdict(const gpu::Ray& ray, const gpu::Triangle& triangle, doubl
 // What is found is within 22 u M of the sphere (see sphere.h): it is a hit of one that is larger or
 // smaller by so much. Whether the origin is inside must be as clear. `slack` as above: the sphere might
 // as well be elsewhere by so much.
-inline Verdict verdict(const gpu::Ray& ray, const gpu::Sphere& sphere, double slack = 0)
+inline Verdict verdict(const fast::Ray& ray, const fast::Sphere& sphere, double slack = 0)
 {
     const ref::Ray exact = exactly(ray);
     const ref::Vec3 f = exact.origin - ref::Vec3(sphere.center);

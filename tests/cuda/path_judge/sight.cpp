@@ -22,7 +22,7 @@ void explain_sight(const ref::World& world, const LineOfSight& line, bool seen)
     const scenes::Scene& scene = world.scene;
     const ref::Vec3 direction = line.to_infinity ? line.to : line.to - line.from;
     const float t_max = line.to_infinity ? std::numeric_limits<float>::infinity() : 1.0f;
-    const gpu::Ray ray{gpu::Vec3(line.from), t_max, gpu::Vec3(direction)};
+    const fast::Ray ray{fast::Vec3(line.from), t_max, fast::Vec3(direction)};
     // The ray here is rounded as that of the floats is.
     const double rounding = 4 * roundoff * (glm::length(line.from) + glm::length(direction));
     // A direction that turns by an angle passes what is in the scene at that angle times two diagonals.
@@ -38,12 +38,12 @@ void explain_sight(const ref::World& world, const LineOfSight& line, bool seen)
         Verdict judged{};
         if (i < triangles) {
             const auto& v = scene.triangles[i].vertices;
-            judged =
-                verdict(ray, gpu::Triangle{{gpu::Vec3(v[0]), gpu::Vec3(v[1]), gpu::Vec3(v[2])}}, slack);
+            judged = verdict(ray, fast::Triangle{{fast::Vec3(v[0]), fast::Vec3(v[1]), fast::Vec3(v[2])}},
+                             slack);
         } else {
             const auto& sphere = scene.spheres[i - triangles];
             judged = verdict(
-                ray, gpu::Sphere{gpu::Vec3(sphere.center), static_cast<float>(sphere.radius)}, slack);
+                ray, fast::Sphere{fast::Vec3(sphere.center), static_cast<float>(sphere.radius)}, slack);
         }
         require(!(seen && judged.certain), "a line of sight is not seen to be blocked");
         may_be_hit = may_be_hit || judged.possible;

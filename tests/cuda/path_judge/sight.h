@@ -21,7 +21,7 @@ struct LineOfSight {
 
 /// How far the floats may have moved an end that is no surface, the eye or a light: not at all, unless
 /// it is on a surface or too near one for a float to tell on which side
-/// (cuda/transport/contact_arrays.cpp).
+/// (cuda/scene/contact_arrays.cpp).
 double end_slack(const ref::World& world, const ref::Vec3& end);
 
 /// Nothing, if rounding can explain that the floats say `seen` and the reference the opposite: throws

@@ -25,7 +25,7 @@ ref::Uniforms float_uniforms(const ref::SampleId& id, ref::Event event, std::uin
     return u;
 }
 
-ref::SurfacePoint surface_of(const ref::World& world, const gpu::SurfacePoint& point)
+ref::SurfacePoint surface_of(const ref::World& world, const fast::SurfacePoint& point)
 {
     ref::SurfacePoint result{};
     result.position = Vec3(point.position);
@@ -46,7 +46,7 @@ double normal_error(const ref::World& world, const ref::SurfacePoint& point)
     return (8 + 2 * glm::length(point.position) / radius) * roundoff;
 }
 
-void require_on_surface(const ref::World& world, const gpu::SurfacePoint& point)
+void require_on_surface(const ref::World& world, const fast::SurfacePoint& point)
 {
     const Vec3 p(point.position);
     const std::size_t triangles = world.scene.triangles.size();
@@ -106,7 +106,7 @@ double drawn_point_error(const ref::World& world, const ref::SurfacePoint& drawn
 namespace {
 
 /// The end of y_0 that is a surface: drawn as the reference does, but for rounding.
-void require_drawn(const ref::World& world, const gpu::SurfacePoint& point,
+void require_drawn(const ref::World& world, const fast::SurfacePoint& point,
                    const ref::SurfacePoint& drawn)
 {
     require(point.primitive == drawn.primitive, "the surface that light comes from");
@@ -127,7 +127,7 @@ bool has_near_surface(const ref::World& world, const ref::SurfacePoint& point)
                                });
 }
 
-NextStep first_of_light(const Setting& setting, const gpu::SampledEmission& emission,
+NextStep first_of_light(const Setting& setting, const fast::SampledEmission& emission,
                         const ref::SampledEmission& drawn, const ref::Uniforms& direction)
 {
     const ref::World& world = setting.world;
@@ -191,7 +191,7 @@ FollowedWalk followed_light_walk(const Setting& setting, const WatchedSample& sa
     require(&setting.world.emitters.all()[sample.emission->emitter] == &chosen, "the chosen emitter");
 
     const NextStep step = first_of_light(setting, *sample.emission, *drawn, direction);
-    const gpu::Vec3 origin = sample.emission->ray.origin;
+    const fast::Vec3 origin = sample.emission->ray.origin;
     require(glm::length(Vec3(origin) - step.origin) <= step.slack, "where a light walk begins");
     FollowedWalk walk{{drawn->y0}, {0}, {12 * roundoff}};
     ref::Vertex& y0 = walk.vertices[0];

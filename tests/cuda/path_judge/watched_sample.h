@@ -2,8 +2,8 @@
 
 // A sample of the fast path with all that it did on the way.
 
+#include "cuda/launch/launch_samples.h"
 #include "cuda/parallel/executor.h"
-#include "cuda/transport/launch_samples.h"
 
 #include <map>
 #include <optional>
@@ -16,14 +16,14 @@ namespace cuda_test {
 struct WatchedSample {
     struct Found {
         std::uint32_t pixel;
-        gpu::Rgb value;
+        fast::Rgb value;
         float weight;
     };
     struct Walk {
-        std::vector<gpu::WalkVertex> vertices; // from v_1 on
-        std::optional<gpu::Leg> missed;        // the leg that met nothing
+        std::vector<fast::WalkVertex> vertices; // from v_1 on
+        std::optional<fast::Leg> missed;        // the leg that met nothing
     };
-    std::optional<gpu::SampledEmission> emission;
+    std::optional<fast::SampledEmission> emission;
     Walk light, eye;
     std::map<std::pair<int, int>, Found> found; // by (s, t)
     bool found_twice = false;                   // the same (s, t)
@@ -34,20 +34,20 @@ struct WatchingSink {
     WatchedSample& sample;
     std::uint32_t pixel;
 
-    void add(int s, int t, const gpu::Rgb& value, float weight) const
+    void add(int s, int t, const fast::Rgb& value, float weight) const
     {
         keep(s, t, {pixel, value, weight});
     }
-    void splat(std::uint32_t where, int s, const gpu::Rgb& value, float weight) const
+    void splat(std::uint32_t where, int s, const fast::Rgb& value, float weight) const
     {
         keep(s, 1, {where, value, weight});
     }
-    void emits(const gpu::SampledEmission& emission) const { sample.emission = emission; }
-    void meets(gpu::Transport carried, const gpu::WalkVertex& vertex) const
+    void emits(const fast::SampledEmission& emission) const { sample.emission = emission; }
+    void meets(fast::Transport carried, const fast::WalkVertex& vertex) const
     {
         walk(carried).vertices.push_back(vertex);
     }
-    void misses(gpu::Transport carried, const gpu::Leg& leg) const { walk(carried).missed = leg; }
+    void misses(fast::Transport carried, const fast::Leg& leg) const { walk(carried).missed = leg; }
 
 private:
     void keep(int s, int t, const WatchedSample::Found& found) const
@@ -55,37 +55,37 @@ private:
         const bool first = sample.found.emplace(std::pair(s, t), found).second;
         sample.found_twice = sample.found_twice || !first;
     }
-    [[nodiscard]] WatchedSample::Walk& walk(gpu::Transport carried) const
+    [[nodiscard]] WatchedSample::Walk& walk(fast::Transport carried) const
     {
-        return carried == gpu::Transport::power ? sample.light : sample.eye;
+        return carried == fast::Transport::power ? sample.light : sample.eye;
     }
 };
-static_assert(gpu::WatchesWalks<WatchingSink>);
-static_assert(!gpu::WatchesWalks<gpu::FilmSink>);
+static_assert(fast::WatchesWalks<WatchingSink>);
+static_assert(!fast::WatchesWalks<fast::FilmSink>);
 
 /// A scene in the memory of the host, ready for single samples.
 class WatchedScene {
 public:
     WatchedScene(const scenes::Scene& scene, int width, int height, bool roulette)
-        : arrays_(gpu::scene_arrays(scene, roulette)),
-          scene_(memory_, executor_, arrays_, gpu::camera_of(scene, arrays_.place, width, height))
+        : arrays_(fast::scene_arrays(scene, roulette)),
+          scene_(memory_, executor_, arrays_, fast::camera_of(scene, arrays_.place, width, height))
     {}
 
     /// How many vertices a light walk may have.
-    [[nodiscard]] int most_light_vertices(gpu::Integrator integrator, int max_edges) const
+    [[nodiscard]] int most_light_vertices(fast::Integrator integrator, int max_edges) const
     {
-        return integrator == gpu::Integrator::bdpt
-                   ? std::min(max_edges, gpu::most_light_vertices(arrays_, max_edges) + 1)
+        return integrator == fast::Integrator::bdpt
+                   ? std::min(max_edges, fast::most_light_vertices(arrays_, max_edges) + 1)
                    : max_edges;
     }
-    [[nodiscard]] WatchedSample sample(gpu::Integrator integrator, const gpu::PathOptions& options,
-                                       const gpu::SampleId& id) const;
+    [[nodiscard]] WatchedSample sample(fast::Integrator integrator, const fast::PathOptions& options,
+                                       const fast::SampleId& id) const;
 
 private:
-    gpu::HostMemory memory_;
-    gpu::SerialExecutor executor_;
-    gpu::SceneArrays arrays_;
-    gpu::SceneInMemory scene_;
+    fast::HostMemory memory_;
+    fast::SerialExecutor executor_;
+    fast::SceneArrays arrays_;
+    fast::SceneInMemory scene_;
 };
 
 } // namespace cuda_test

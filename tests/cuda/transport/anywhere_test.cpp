@@ -1,6 +1,6 @@
 // Scenes of any size and in any place: the same picture, though floats have seven digits.
 
-#include "cuda/transport/renderer.h"
+#include "cuda/launch/renderer.h"
 #include "scenes/bounds.h"
 #include "tests/ref/transport/changed_scene.h"
 #include "tests/ref/transport/scene_files.h"
@@ -28,7 +28,7 @@ images::Image picture_of(const scenes::Scene& scene)
     images::RenderOptions options;
     options.max_edges = 6;
     options.deterministic = true;
-    return gpu::host_renderer(scene, 24, 16, options, 1)->render_batch(0, {})->mean;
+    return fast::host_renderer(scene, 24, 16, options, 1)->render_batch(0, {})->mean;
 }
 
 double diameter(const scenes::Scene& scene)

@@ -3,7 +3,7 @@
 // The mean of a whole picture, all channels together, batch by batch, from either wing: what tests
 // compare that ask whether two renderers agree.
 
-#include "cuda/transport/renderer.h"
+#include "cuda/launch/renderer.h"
 #include "ref/transport/render.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ inline Means means_by_ref(const scenes::Scene& scene, ref::Integrator integrator
 }
 
 /// Contributions that are not finite are failures.
-inline Means means_by_host(const scenes::Scene& scene, gpu::Integrator integrator, int max_edges,
+inline Means means_by_host(const scenes::Scene& scene, fast::Integrator integrator, int max_edges,
                            std::uint64_t seed, const Samples& samples)
 {
     images::RenderOptions options;
@@ -52,7 +52,7 @@ inline Means means_by_host(const scenes::Scene& scene, gpu::Integrator integrato
     options.max_edges = max_edges;
     options.seed = seed;
     options.batch_size = samples.batch_size;
-    const auto renderer = gpu::host_renderer(scene, samples.size, samples.size, options, 1);
+    const auto renderer = fast::host_renderer(scene, samples.size, samples.size, options, 1);
     Means means;
     for (std::uint64_t i = 0; i < samples.batches; ++i) {
         const images::Batch batch = *renderer->render_batch(i, {});

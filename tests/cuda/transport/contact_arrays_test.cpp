@@ -3,7 +3,7 @@
 // in double precision: they begin their rays on the side of every surface on which they are, however
 // near it.
 
-#include "cuda/transport/scene_arrays.h"
+#include "cuda/scene/scene_arrays.h"
 #include "cuda/trees/clearance.h"
 #include "scenes/contacts.h"
 #include "tests/cuda/transport/touching_scenes.h"
@@ -21,20 +21,20 @@ using cuda_test::Touching;
 using scenes::Vec3;
 
 /// As kernels do it (leave_end).
-Vec3 origin_of(const gpu::SceneArrays& arrays, const gpu::Vec3& position,
-               const gpu::EndContacts& contacts, const gpu::Vec3& direction, float length)
+Vec3 origin_of(const fast::SceneArrays& arrays, const fast::Vec3& position,
+               const fast::EndContacts& contacts, const fast::Vec3& direction, float length)
 {
-    gpu::Vec3 origin = position;
+    fast::Vec3 origin = position;
     for (std::uint32_t i = 0; i < contacts.plane_count; ++i) {
-        const gpu::ContactPlane& plane = arrays.contact_planes[contacts.first_plane + i];
-        const float clearance = std::max(0.0f, plane.clearance + gpu::clearance_per_length * length);
+        const fast::ContactPlane& plane = arrays.contact_planes[contacts.first_plane + i];
+        const float clearance = std::max(0.0f, plane.clearance + fast::clearance_per_length * length);
         origin += (glm::dot(direction, plane.normal) < 0 ? -clearance : clearance) * plane.push;
     }
     return Vec3(origin);
 }
 
 /// How far `p` is from the triangle's plane as floats have it, along its normal.
-double height_over(const gpu::Triangle& triangle, const Vec3& p)
+double height_over(const fast::Triangle& triangle, const Vec3& p)
 {
     const Vec3 a(triangle.vertices[0]);
     const Vec3 normal =
@@ -50,10 +50,10 @@ Vec3 any_direction()
 }
 
 /// Checks the origin of a ray from an end at `exact` (in the scene's own coordinates).
-void check_end(const scenes::Scene& scene, const gpu::SceneArrays& arrays, const Vec3& exact,
-               const gpu::Vec3& position, const gpu::EndContacts& contacts)
+void check_end(const scenes::Scene& scene, const fast::SceneArrays& arrays, const Vec3& exact,
+               const fast::Vec3& position, const fast::EndContacts& contacts)
 {
-    const gpu::Vec3 direction(any_direction());
+    const fast::Vec3 direction(any_direction());
     // Of a ray that leaves, or of a segment of any length that comes.
     const double length =
         static_cast<double>(arrays.diagonal) * std::max(0, *rc::gen::inRange(-5, 11)) / 10;
@@ -69,7 +69,7 @@ void check_end(const scenes::Scene& scene, const gpu::SceneArrays& arrays, const
         // What a ray or segment may err by (clearance.h, steps 3 and 4): nearer than that a plane would
         // be met by chance.
         const auto& v = arrays.triangles[surface.primitive].vertices;
-        const Vec3 a(gpu::triangle_extent(v[1] - v[0], v[2] - v[0]));
+        const Vec3 a(fast::triangle_extent(v[1] - v[0], v[2] - v[0]));
         const Vec3 n = glm::abs(surface.normal);
         const double uncertain =
             2 * glm::dot(n, a) + 5 * std::max({a.x, a.y, a.z}) * (n.x + n.y + n.z) + 11.7 * length;
@@ -93,15 +93,15 @@ RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())
         *rc::gen::inRange(0, 4) == 0 ? 0 : std::pow(10, -0.1 * *rc::gen::inRange(30, 120));
     const scenes::Scene scene =
         cuda_test::touching_scene(kind, *rc::gen::inRange<std::uint32_t>(0, 1u << 30), gap);
-    const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+    const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
     check_end(scene, arrays, scene.camera->eye, arrays.place(scene.camera->eye), arrays.eye_contacts);
     for (std::size_t i = 0; i < arrays.emitters.size(); ++i) {
-        const gpu::Emitter& emitter = arrays.emitters[i];
-        const gpu::Light& light = arrays.lights[i];
-        if (emitter.kind == gpu::EmitterKind::point)
+        const fast::Emitter& emitter = arrays.emitters[i];
+        const fast::Light& light = arrays.lights[i];
+        if (emitter.kind == fast::EmitterKind::point)
             check_end(scene, arrays, scene.point_lights[emitter.index].position, light.position,
                       light.contacts);
-        if (emitter.kind == gpu::EmitterKind::spot)
+        if (emitter.kind == fast::EmitterKind::spot)
             check_end(scene, arrays, scene.spot_lights[emitter.index].position, light.position,
                       light.contacts);
     }
@@ -110,7 +110,7 @@ RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())
 TEST(EndsOfPaths, OfAnOrdinarySceneTouchNothing)
 {
     scenes::Scene scene = cuda_test::touching_scene(Touching::point_light_on_wall, 1, 0.01);
-    const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+    const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
     EXPECT_TRUE(arrays.contact_planes.empty());
     EXPECT_TRUE(arrays.contact_triangles.empty());
     EXPECT_TRUE(arrays.coincident.empty());
@@ -121,9 +121,9 @@ TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
 {
     for (const double gap : {1e-9, -1e-9, 0.0}) {
         const scenes::Scene scene = cuda_test::touching_scene(Touching::lamp_in_wall, 2, gap);
-        const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+        const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
         // The lamp's triangles are the last; the wall that they coincide with faces as they do.
-        const gpu::SurfaceContacts& lamp = arrays.surface_contacts[arrays.surfaces.back().contacts];
+        const fast::SurfaceContacts& lamp = arrays.surface_contacts[arrays.surfaces.back().contacts];
         ASSERT_GT(lamp.coincident_count, 0u);
         for (std::uint32_t i = 0; i < lamp.coincident_count; ++i)
             EXPECT_EQ(arrays.coincident[lamp.first_coincident + i].side, gap == 0  ? 0
@@ -132,7 +132,7 @@ TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
                 << gap;
     }
     const scenes::Scene apart = cuda_test::touching_scene(Touching::lamp_in_wall, 2, 1e-4);
-    EXPECT_TRUE(gpu::scene_arrays(apart, true).coincident.empty());
+    EXPECT_TRUE(fast::scene_arrays(apart, true).coincident.empty());
 }
 
 // They may be as small as the distance up to which surfaces are near.
@@ -145,7 +145,7 @@ TEST(CoincidentSurfaces, AreFoundHoweverSmall)
         const Vec3 at(0.3, 0.2, 0.4);
         const scenes::Triangle small{{at, at + Vec3(size, 0, 0), at + Vec3(0, size, 0)}, 0};
         scene.triangles = {{{Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0)}, 0}, small, small};
-        const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+        const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
         for (const std::size_t i : {1, 2})
             EXPECT_EQ(arrays.surface_contacts[arrays.surfaces[i].contacts].coincident_count, 1u) << size;
     }

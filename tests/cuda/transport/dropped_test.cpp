@@ -19,24 +19,24 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// A film of few pixels in the memory of the host.
 struct SmallFilm {
     static constexpr std::uint32_t pixels = 4;
-    std::vector<gpu::Rgb> own = std::vector<gpu::Rgb>(64, gpu::Rgb(0.0f));
-    std::vector<gpu::Rgb> splats = std::vector<gpu::Rgb>(pixels, gpu::Rgb(0.0f));
-    std::vector<gpu::DroppedCount> dropped = std::vector<gpu::DroppedCount>(1);
-    gpu::FilmTarget target{own, {splats, {}}, {}, dropped, false, pixels};
+    std::vector<fast::Rgb> own = std::vector<fast::Rgb>(64, fast::Rgb(0.0f));
+    std::vector<fast::Rgb> splats = std::vector<fast::Rgb>(pixels, fast::Rgb(0.0f));
+    std::vector<fast::DroppedCount> dropped = std::vector<fast::DroppedCount>(1);
+    fast::FilmTarget target{own, {splats, {}}, {}, dropped, false, pixels};
 };
 
 /// Kernel over samples: each adds a finite contribution, and one that is not, to its pixel and to
 /// another.
 struct AddToFilm {
-    gpu::FilmTarget target;
+    fast::FilmTarget target;
     void operator()(std::uint32_t i) const
     {
         const std::uint32_t pixel = 1 + i % 3;
-        gpu::FilmSink sink(target, pixel);
-        sink.add(1, 2, gpu::Rgb(1.0f, 2.0f, 3.0f), 0.5f);
-        sink.add(2, 2, gpu::Rgb(1.0f, i % 2 == 0 ? nan : infinity, 3.0f), 1.0f);
-        sink.splat(pixel, 2, gpu::Rgb(1.0f), 1.0f);
-        sink.splat(pixel, 3, gpu::Rgb(1.0f), nan);
+        fast::FilmSink sink(target, pixel);
+        sink.add(1, 2, fast::Rgb(1.0f, 2.0f, 3.0f), 0.5f);
+        sink.add(2, 2, fast::Rgb(1.0f, i % 2 == 0 ? nan : infinity, 3.0f), 1.0f);
+        sink.splat(pixel, 2, fast::Rgb(1.0f), 1.0f);
+        sink.splat(pixel, 3, fast::Rgb(1.0f), nan);
         target.own[i] = sink.own();
     }
 };
@@ -46,21 +46,21 @@ void expect_all_dropped(Executor& executor)
 {
     SmallFilm film;
     executor(30, AddToFilm{film.target});
-    for (std::uint32_t i = 0; i < 30; ++i) EXPECT_EQ(film.own[i], gpu::Rgb(0.5f, 1.0f, 1.5f));
-    for (std::uint32_t pixel = 1; pixel < 4; ++pixel) EXPECT_EQ(film.splats[pixel], gpu::Rgb(10.0f));
+    for (std::uint32_t i = 0; i < 30; ++i) EXPECT_EQ(film.own[i], fast::Rgb(0.5f, 1.0f, 1.5f));
+    for (std::uint32_t pixel = 1; pixel < 4; ++pixel) EXPECT_EQ(film.splats[pixel], fast::Rgb(10.0f));
     EXPECT_EQ(film.dropped[0].count, 60u);
-    EXPECT_EQ(film.dropped[0].least_key, gpu::dropped_key(1, 2, 2)); // before s = 3, t = 1
+    EXPECT_EQ(film.dropped[0].least_key, fast::dropped_key(1, 2, 2)); // before s = 3, t = 1
 }
 
 TEST(DroppedContributions, AreCountedAndLeftOutOneByOne)
 {
-    gpu::SerialExecutor executor;
+    fast::SerialExecutor executor;
     expect_all_dropped(executor);
 }
 
 TEST(DroppedContributions, AreCountedAndLeftOutByManyThreads)
 {
-    gpu::ThreadedExecutor executor(4);
+    fast::ThreadedExecutor executor(4);
     expect_all_dropped(executor);
 }
 

@@ -1,8 +1,8 @@
 // The choice of an emitter in floats is that of the reference, number for number; and no emitter is
 // starved.
 
+#include "cuda/launch/renderer.h"
 #include "cuda/transport/emitter_choice.h"
-#include "cuda/transport/renderer.h"
 #include "ref/transport/emitter_choice.h"
 #include "tests/ref/transport/emitter_powers.h"
 #include "tests/ref/transport/estimate.h"
@@ -19,7 +19,7 @@ namespace {
 RC_GTEST_PROP(EmitterChoiceInFloat, HasTheBordersOfTheReference, ())
 {
     const std::vector<double> powers = transport_test::any_powers();
-    const std::vector<float> sums = gpu::summed_probabilities(powers);
+    const std::vector<float> sums = fast::summed_probabilities(powers);
     RC_ASSERT(sums.empty() == !(transport_test::total_of(powers) > 0.0));
     if (sums.empty()) return;
     const std::vector<double> borders = ref::choice_borders(powers);
@@ -28,29 +28,29 @@ RC_GTEST_PROP(EmitterChoiceInFloat, HasTheBordersOfTheReference, ())
 
 TEST(EmitterChoiceInFloat, RefusesWhatItCannotShareOut)
 {
-    EXPECT_THROW((void)gpu::summed_probabilities({1.0, std::numeric_limits<double>::infinity()}),
+    EXPECT_THROW((void)fast::summed_probabilities({1.0, std::numeric_limits<double>::infinity()}),
                  std::invalid_argument);
-    EXPECT_THROW((void)gpu::summed_probabilities({std::numeric_limits<double>::quiet_NaN()}),
+    EXPECT_THROW((void)fast::summed_probabilities({std::numeric_limits<double>::quiet_NaN()}),
                  std::invalid_argument);
-    EXPECT_THROW((void)gpu::summed_probabilities(std::vector<double>((1 << 24) + 1, 1.0)),
+    EXPECT_THROW((void)fast::summed_probabilities(std::vector<double>((1 << 24) + 1, 1.0)),
                  std::invalid_argument);
-    EXPECT_EQ(gpu::summed_probabilities(std::vector<double>(1 << 24, 1.0))[5], 6 * 0x1p-24f);
+    EXPECT_EQ(fast::summed_probabilities(std::vector<double>(1 << 24, 1.0))[5], 6 * 0x1p-24f);
 }
 
-transport_test::Measured mean_by_host(const scenes::Scene& scene, gpu::Integrator integrator)
+transport_test::Measured mean_by_host(const scenes::Scene& scene, fast::Integrator integrator)
 {
     images::RenderOptions options;
     options.integrator = integrator;
     options.max_edges = 2;
     options.batch_size = 512;
-    const auto renderer = gpu::host_renderer(scene, 4, 4, options, 1);
+    const auto renderer = fast::host_renderer(scene, 4, 4, options, 1);
     std::vector<double> means;
     for (std::uint64_t i = 0; i < 32; ++i)
         means.push_back(transport_test::mean_over(renderer->render_batch(i, {})->mean, {0, 0, 4, 4}, 0));
     return transport_test::measure(means);
 }
 
-class StarvedLampInFloat : public testing::TestWithParam<gpu::Integrator> {};
+class StarvedLampInFloat : public testing::TestWithParam<fast::Integrator> {};
 
 TEST_P(StarvedLampInFloat, LightsThePlaneBesideEmittersOfAnyPower)
 {
@@ -59,13 +59,13 @@ TEST_P(StarvedLampInFloat, LightsThePlaneBesideEmittersOfAnyPower)
         const scenes::Scene scene = transport_test::lamp_beside_a_brighter_one(ratio);
         transport_test::expect_mean(mean_by_host(scene, GetParam()),
                                     transport_test::radiance_of_lit_plane(scene, 4, 4),
-                                    GetParam() == gpu::Integrator::light ? 0.25 : 0.1);
+                                    GetParam() == fast::Integrator::light ? 0.25 : 0.1);
     }
 }
 
 TEST_P(StarvedLampInFloat, LightsThePlaneUnderAWideSky)
 {
-    if (GetParam() == gpu::Integrator::light) return; // from there it does not find what is seen
+    if (GetParam() == fast::Integrator::light) return; // from there it does not find what is seen
     for (const double half_width : {1e1, 1e2, 1e4}) {
         SCOPED_TRACE(half_width);
         const scenes::Scene scene = transport_test::lamp_under_sky(half_width);
@@ -75,12 +75,12 @@ TEST_P(StarvedLampInFloat, LightsThePlaneUnderAWideSky)
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, StarvedLampInFloat,
-                         testing::Values(gpu::Integrator::path, gpu::Integrator::bdpt,
-                                         gpu::Integrator::light),
-                         [](const testing::TestParamInfo<gpu::Integrator>& of) {
-                             return std::string(of.param == gpu::Integrator::path   ? "path"
-                                                : of.param == gpu::Integrator::bdpt ? "bdpt"
-                                                                                    : "light");
+                         testing::Values(fast::Integrator::path, fast::Integrator::bdpt,
+                                         fast::Integrator::light),
+                         [](const testing::TestParamInfo<fast::Integrator>& of) {
+                             return std::string(of.param == fast::Integrator::path   ? "path"
+                                                : of.param == fast::Integrator::bdpt ? "bdpt"
+                                                                                     : "light");
                          });
 
 } // namespace

@@ -19,7 +19,7 @@
 namespace {
 
 using boost::multiprecision::cpp_int;
-using gpu::ExactSum;
+using fast::ExactSum;
 
 constexpr float largest = std::numeric_limits<float>::max();
 constexpr float smallest = std::numeric_limits<float>::denorm_min(); // 2^-149
@@ -149,7 +149,7 @@ TEST(ExactSum, LosesNothingWhereThreadsMeet)
     for (float& term : terms)
         term = std::bit_cast<float>(static_cast<std::uint32_t>(random() % 0x7f80'0000ull));
     terms[17] = -1.0f;
-    gpu::ThreadedExecutor threads(4, 1);
+    fast::ThreadedExecutor threads(4, 1);
     ExactSum sum{};
     threads(static_cast<std::uint32_t>(terms.size()), AddTerms{terms, {&sum, 1}});
     EXPECT_EQ(sum.lost, 1);

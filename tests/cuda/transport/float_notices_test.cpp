@@ -1,6 +1,6 @@
 // What is said of scenes that floats do not hold.
 
-#include "cuda/transport/float_notices.h"
+#include "cuda/scene/float_notices.h"
 
 #include "tests/ref/transport/scene_files.h"
 
@@ -31,19 +31,19 @@ scenes::Triangle speck(double size)
 TEST(FloatNotices, SayNothingOfTheScenesHere)
 {
     for (const auto& file : transport_test::our_scene_files())
-        EXPECT_TRUE(gpu::float_notices(scenes::read_scene(file)).empty()) << file;
+        EXPECT_TRUE(fast::float_notices(scenes::read_scene(file)).empty()) << file;
 }
 
 TEST(FloatNotices, NameWhatCollapses)
 {
     scenes::Scene scene = ground();
     scene.triangles.push_back({{Vec3(0), Vec3(1, 0, 0), Vec3(1, 0, 0)}, 1}); // has no area anyway
-    EXPECT_TRUE(gpu::float_notices(scene).empty());
+    EXPECT_TRUE(fast::float_notices(scene).empty());
     scene.triangles.push_back(speck(1e-9));
     scene.triangles.push_back(speck(1e-9));
-    ASSERT_EQ(gpu::float_notices(scene).size(), 1u);
+    ASSERT_EQ(fast::float_notices(scene).size(), 1u);
     EXPECT_EQ(
-        gpu::float_notices(scene)[0],
+        fast::float_notices(scene)[0],
         "2 surface(s), first triangle 3 (material \"dust\"), collapse to a line or a point in single "
         "precision: no ray meets them");
 }
@@ -53,15 +53,15 @@ TEST(FloatNotices, NameWhatIsTooSmallToLeave)
     scenes::Scene scene = ground();
     scene.triangles.push_back(speck(1e-5));
     scene.spheres.push_back({Vec3(0.5, 0.4, 0.25), 1e-5, 1});
-    EXPECT_TRUE(gpu::float_notices(scene).empty());
+    EXPECT_TRUE(fast::float_notices(scene).empty());
     scene.spheres.push_back({Vec3(0.5, 0.4, 0.25), 2e-7, 1});
-    ASSERT_EQ(gpu::float_notices(scene).size(), 1u);
-    EXPECT_TRUE(gpu::float_notices(scene)[0].starts_with(
+    ASSERT_EQ(fast::float_notices(scene).size(), 1u);
+    EXPECT_TRUE(fast::float_notices(scene)[0].starts_with(
         "1 surface(s), first sphere 2 (material \"dust\"), are so small"))
-        << gpu::float_notices(scene)[0];
+        << fast::float_notices(scene)[0];
     scene.triangles.push_back(speck(2e-7));
-    EXPECT_TRUE(gpu::float_notices(scene)[0].starts_with("2 surface(s), first triangle 3"))
-        << gpu::float_notices(scene)[0];
+    EXPECT_TRUE(fast::float_notices(scene)[0].starts_with("2 surface(s), first triangle 3"))
+        << fast::float_notices(scene)[0];
 }
 
 TEST(FloatNotices, NameEndsWhoseHeightIsNotKnown)
@@ -69,7 +69,7 @@ TEST(FloatNotices, NameEndsWhoseHeightIsNotKnown)
     scenes::Scene scene = ground();
     const auto with_light_at = [&](double height) {
         scene.point_lights = {{Vec3(0.3, 0, height), scenes::Rgb(1.0)}};
-        return gpu::float_notices(scene);
+        return fast::float_notices(scene);
     };
     EXPECT_TRUE(with_light_at(0.0).empty()); // there is a rule
     EXPECT_TRUE(with_light_at(1e-5).empty());
@@ -86,7 +86,7 @@ TEST(FloatNotices, NameGlassTooCloseToAnotherSurface)
         scenes::Scene scene = ground();
         scene.materials[1] = scenes::Glass{scenes::Rgb(1.0), scenes::Rgb(1.0), 1.5};
         scene.triangles.push_back({{Vec3(0, -0.5, gap), Vec3(0.5, 0, gap), Vec3(0, 0, gap)}, 1});
-        return gpu::float_notices(scene);
+        return fast::float_notices(scene);
     };
     EXPECT_TRUE(notices(0.0).empty()); // there is a rule
     EXPECT_TRUE(notices(1e-5).empty());

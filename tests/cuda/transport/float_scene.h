@@ -9,7 +9,7 @@ namespace cuda_test {
 /// `scene` on a grid of 2^-22 of its diagonal or somewhat coarser, with the centre of its box at the
 /// origin, a diagonal between 1 and 2, by a power of two, and every number of it a float; of a
 /// spot's cos_cutoff, 1 - cos_cutoff is. Differences of
-/// coordinates are exact in single precision; and where gpu::scene_arrays moves and scales a scene, it
+/// coordinates are exact in single precision; and where fast::scene_arrays moves and scales a scene, it
 /// leaves this one where it is. Radiance is what it was.
 scenes::Scene float_scene(scenes::Scene scene);
 

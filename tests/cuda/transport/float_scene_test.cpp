@@ -1,6 +1,6 @@
 #include "tests/cuda/transport/float_scene.h"
 
-#include "cuda/transport/scene_arrays.h"
+#include "cuda/scene/scene_arrays.h"
 #include "scenes/read_scene.h"
 
 #include <glm/geometric.hpp>
@@ -51,7 +51,7 @@ TEST(FloatScene, KeepsEveryPlace)
 TEST(FloatScene, IsLeftWhereItIs)
 {
     const scenes::Scene scene = cuda_test::float_scene(all_emitters());
-    const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+    const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
     EXPECT_EQ(arrays.place.origin, scenes::Vec3(0));
     EXPECT_EQ(arrays.place.scale, 1);
     for (std::size_t i = 0; i < scene.triangles.size(); ++i)

@@ -1,9 +1,9 @@
 // Triangles without area stop no ray on the fast path, wherever they lie and whatever rounding makes of
 // their corners; thin ones do.
 
+#include "cuda/launch/renderer.h"
 #include "cuda/parallel/threaded_executor.h"
-#include "cuda/transport/renderer.h"
-#include "cuda/transport/scene_arrays.h"
+#include "cuda/scene/scene_arrays.h"
 #include "cuda/trees/scene_geometry.h"
 #include "cuda/trees/surfaces.h"
 #include "tests/cuda/transport/float_scene.h"
@@ -75,15 +75,15 @@ Corners without_area(std::size_t kind, Random& random)
 }
 
 /// How many of the rays hit something.
-std::size_t hits(const std::vector<gpu::Triangle>& triangles, const std::vector<gpu::Ray>& rays)
+std::size_t hits(const std::vector<fast::Triangle>& triangles, const std::vector<fast::Ray>& rays)
 {
-    gpu::HostMemory memory;
-    gpu::SerialExecutor serial;
-    const gpu::SurfaceTree tree(memory, serial, triangles, {});
+    fast::HostMemory memory;
+    fast::SerialExecutor serial;
+    const fast::SurfaceTree tree(memory, serial, triangles, {});
     std::size_t count = 0;
-    for (const gpu::Ray& ray : rays) {
-        const bool any = any_hit(tree.view<false>(), ray);
-        EXPECT_EQ(closest_hit(tree.view<false>(), ray).primitive != gpu::no_primitive, any);
+    for (const fast::Ray& ray : rays) {
+        const bool any = occluded(tree.view<false>(), ray);
+        EXPECT_EQ(intersect(tree.view<false>(), ray).primitive != fast::no_primitive, any);
         count += any ? 1 : 0;
     }
     return count;
@@ -96,20 +96,20 @@ TEST(TrianglesWithoutArea, AreHitByNoRay)
     scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
     for (std::size_t i = 0; i < 1200; ++i)
         scene.triangles.push_back({without_area(i % kinds, random), 0});
-    std::vector<gpu::Triangle> corner_by_corner;
-    std::vector<gpu::Ray> rays; // to where they are
+    std::vector<fast::Triangle> corner_by_corner;
+    std::vector<fast::Ray> rays; // to where they are
     for (const scenes::Triangle& triangle : scene.triangles) {
         const auto& v = triangle.vertices;
-        corner_by_corner.push_back({{gpu::Vec3(v[0]), gpu::Vec3(v[1]), gpu::Vec3(v[2])}});
+        corner_by_corner.push_back({{fast::Vec3(v[0]), fast::Vec3(v[1]), fast::Vec3(v[2])}});
         for (int k = 0; k < 50; ++k) {
             const Vec3 b = random.barycentric();
-            const gpu::Vec3 origin(2.0 * random.in_cube());
-            const gpu::Vec3 to(b[0] * v[0] + b[1] * v[1] + b[2] * v[2]);
+            const fast::Vec3 origin(2.0 * random.in_cube());
+            const fast::Vec3 to(b[0] * v[0] + b[1] * v[1] + b[2] * v[2]);
             rays.push_back({origin, std::numeric_limits<float>::infinity(), to - origin});
         }
     }
     EXPECT_GT(hits(corner_by_corner, rays), rays.size() / 100); // else nothing is tested
-    EXPECT_EQ(hits(gpu::triangles_of(scene), rays), 0u);
+    EXPECT_EQ(hits(fast::triangles_of(scene), rays), 0u);
 }
 
 TEST(TrianglesWithoutArea, AreFoundInEveryPlaceAndSize)
@@ -121,7 +121,7 @@ TEST(TrianglesWithoutArea, AreFoundInEveryPlaceAndSize)
         const Vec3 far = size * random.magnitude(0, 6) * random.in_cube();
         Corners moved{};
         for (std::size_t k = 0; k < 3; ++k) moved[k] = size * v[k] + far;
-        EXPECT_FALSE(gpu::has_area({moved, 0}, {far, 1 / size})) << "kind " << i % kinds_in_double;
+        EXPECT_FALSE(fast::has_area({moved, 0}, {far, 1 / size})) << "kind " << i % kinds_in_double;
     }
 }
 
@@ -139,19 +139,19 @@ TEST(TrianglesWithLittleArea, KeepEveryCorner)
         const double height = std::max(0x1p-18, length * random.magnitude(-6, 0));
         scene.triangles.push_back(
             {{a, a + length * along, a + random.uniform() * length * along + height * across}, 0});
-        EXPECT_TRUE(gpu::has_area(scene.triangles.back()));
+        EXPECT_TRUE(fast::has_area(scene.triangles.back()));
     }
-    const auto triangles = gpu::triangles_of(scene);
+    const auto triangles = fast::triangles_of(scene);
     for (std::size_t i = 0; i < triangles.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k)
-            EXPECT_EQ(triangles[i].vertices[k], gpu::Vec3(scene.triangles[i].vertices[k]));
+            EXPECT_EQ(triangles[i].vertices[k], fast::Vec3(scene.triangles[i].vertices[k]));
     // And they are still there for rays to their middles.
-    std::vector<gpu::Ray> rays;
+    std::vector<fast::Ray> rays;
     for (const scenes::Triangle& triangle : scene.triangles) {
         const auto& v = triangle.vertices;
         const Vec3 normal = glm::normalize(glm::cross(v[1] - v[0], v[2] - v[0]));
-        const gpu::Vec3 origin((v[0] + v[1] + v[2]) / 3.0 + normal);
-        rays.push_back({origin, std::numeric_limits<float>::infinity(), gpu::Vec3(-normal)});
+        const fast::Vec3 origin((v[0] + v[1] + v[2]) / 3.0 + normal);
+        rays.push_back({origin, std::numeric_limits<float>::infinity(), fast::Vec3(-normal)});
     }
     EXPECT_EQ(hits(triangles, rays), rays.size());
 }
@@ -175,9 +175,9 @@ TEST(TrianglesWithoutArea, LeaveASkyOfOneExactlyOne)
     for (std::size_t i = 0; i < 10000; ++i)
         scene.triangles.push_back({without_area(i % kinds_in_double, random), 0});
     images::RenderOptions options;
-    options.integrator = gpu::Integrator::path;
+    options.integrator = fast::Integrator::path;
     options.batch_size = 256;
-    const auto renderer = gpu::host_renderer(scene, 32, 32, options, 2);
+    const auto renderer = fast::host_renderer(scene, 32, 32, options, 2);
     const images::Batch batch = *renderer->render_batch(0, {});
     for (const images::Rgb& pixel : batch.mean.pixels) EXPECT_EQ(pixel, images::Rgb(1.0));
 }
@@ -185,7 +185,7 @@ TEST(TrianglesWithoutArea, LeaveASkyOfOneExactlyOne)
 std::string refusal_of(const scenes::Scene& scene)
 {
     try {
-        (void)gpu::scene_arrays(scene, true);
+        (void)fast::scene_arrays(scene, true);
     } catch (const std::invalid_argument& error) {
         return error.what();
     }
@@ -207,7 +207,7 @@ TEST(TrianglesWithoutArea, ThatGiveMuchOfTheLightAreRefused)
     // Beside another lamp it counts for 1e-20 of the light.
     scene.triangles.push_back({{p, p + Vec3(1, 0, 0), p + Vec3(0, 1, 0)}, 1});
     EXPECT_EQ(refusal_of(scene), "");
-    const gpu::SceneArrays arrays = gpu::scene_arrays(scene, true);
+    const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
     ASSERT_EQ(arrays.emitters.size(), 2u);
     EXPECT_EQ(arrays.emitters[0].probability, 0.0f);
     EXPECT_EQ(arrays.emitters[1].probability, 1.0f);

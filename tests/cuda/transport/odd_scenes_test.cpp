@@ -55,7 +55,7 @@ constexpr cuda_test::Samples samples{.size = cuda_test::odd_size, .batches = 32,
 struct Both {
     const char* name;
     ref::Integrator ref;
-    gpu::Integrator host;
+    fast::Integrator host;
     bool sure; // finds everything with a variance that is not large
 };
 
@@ -156,9 +156,9 @@ void expect_right(std::uint32_t seed)
     ASSERT_GT(truth.mean, 0);
     EXPECT_LE(truth.error, largest_error * truth.mean);
 
-    std::vector<Both> all = {{"bdpt", ref::trace_bidirectionally, gpu::Integrator::bdpt, true}};
-    if (odd.path_sees) all.push_back({"path", ref::trace_path, gpu::Integrator::path, true});
-    if (odd.light_sees) all.push_back({"light", ref::trace_light, gpu::Integrator::light, false});
+    std::vector<Both> all = {{"bdpt", ref::trace_bidirectionally, fast::Integrator::bdpt, true}};
+    if (odd.path_sees) all.push_back({"path", ref::trace_path, fast::Integrator::path, true});
+    if (odd.light_sees) all.push_back({"light", ref::trace_light, fast::Integrator::light, false});
     std::uint64_t number = 1000000ull * seed;
     for (const Both& integrator : all) expect_right(odd, integrator, truth, number += 10);
 }

@@ -1,8 +1,8 @@
 // From samples to batches: nothing is lost, nothing counted twice, and nothing depends on how the work
 // is divided.
 
-#include "cuda/transport/batch_renderer.h"
-#include "cuda/transport/host_kernels.h"
+#include "cuda/launch/batch_renderer.h"
+#include "cuda/launch/host_kernels.h"
 #include "tests/cuda/parallel/on_device.h"
 #include "tests/cuda/transport/recording.h"
 #include "tests/ref/transport/scene_files.h"
@@ -22,7 +22,7 @@ namespace {
 
 using cuda_test::Recorded;
 using cuda_test::Recorder;
-using gpu::Integrator;
+using fast::Integrator;
 using transport_test::our_scene;
 
 constexpr int width = 12;
@@ -41,17 +41,17 @@ images::RenderOptions short_paths(Integrator integrator)
 images::Image batch_of(const scenes::Scene& scene, const images::RenderOptions& options,
                        unsigned threads, std::uint32_t launch, std::uint64_t number)
 {
-    gpu::HostMemory memory;
-    gpu::ThreadedExecutor executor(threads, 1);
-    gpu::BatchRenderer renderer(memory, executor, {launch, launch, std::size_t{1} << 30}, scene, width,
-                                height, options, {});
+    fast::HostMemory memory;
+    fast::ThreadedExecutor executor(threads, 1);
+    fast::BatchRenderer renderer(memory, executor, {launch, launch, std::size_t{1} << 30}, scene, width,
+                                 height, options, {});
     return renderer.render_batch(number, {})->mean;
 }
 
 TEST(LaunchSize, GrowsAndShrinksBetweenItsLimits)
 {
     using std::chrono::milliseconds;
-    gpu::LaunchSize size({64, 256, 1 << 20}, 64);
+    fast::LaunchSize size({64, 256, 1 << 20}, 64);
     EXPECT_EQ(size.get(), 64u);
     for (int i = 0; i < 5; ++i) size.took(milliseconds(1));
     EXPECT_EQ(size.get(), 256u);
@@ -60,15 +60,15 @@ TEST(LaunchSize, GrowsAndShrinksBetweenItsLimits)
     for (int i = 0; i < 5; ++i) size.took(milliseconds(500));
     EXPECT_EQ(size.get(), 64u);
     // What does not fit in memory at once is done in turn, a single sample at the least.
-    EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 100).most(), 8u);
-    EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 100).get(), 8u);
-    EXPECT_EQ(gpu::LaunchSize({64, 256, 1000}, 5000).most(), 1u);
+    EXPECT_EQ(fast::LaunchSize({64, 256, 1000}, 100).most(), 8u);
+    EXPECT_EQ(fast::LaunchSize({64, 256, 1000}, 100).get(), 8u);
+    EXPECT_EQ(fast::LaunchSize({64, 256, 1000}, 5000).most(), 1u);
 }
 
 /// Counts what is launched.
 struct CountingExecutor {
     std::vector<std::uint32_t> counts;
-    template <gpu::Kernel K>
+    template <fast::Kernel K>
     void operator()(std::uint32_t count, const K& kernel)
     {
         counts.push_back(count);
@@ -83,7 +83,7 @@ TEST(Clear, ReachesEveryElementOnceHoweverManyLaunchesItTakes)
     const auto launches = [](std::size_t size) {
         std::vector<std::uint64_t> elements(size + 1, 5);
         CountingExecutor executor;
-        gpu::clear(executor, std::span(elements).first(size), 7);
+        fast::clear(executor, std::span(elements).first(size), 7);
         EXPECT_EQ(std::accumulate(elements.begin(), elements.end(), std::uint64_t{0}), 5u);
         EXPECT_EQ(elements.back(), 5u);
         return executor.counts;
@@ -93,7 +93,7 @@ TEST(Clear, ReachesEveryElementOnceHoweverManyLaunchesItTakes)
     EXPECT_EQ(launches(7), Counts{7});
     EXPECT_EQ(launches(8), (Counts{7, 1}));
     EXPECT_EQ(launches(21), (Counts{7, 7, 7}));
-    static_assert(gpu::most_per_launch == std::numeric_limits<std::uint32_t>::max());
+    static_assert(fast::most_per_launch == std::numeric_limits<std::uint32_t>::max());
 }
 
 template <class Function>
@@ -109,9 +109,9 @@ std::string refusal_of(const Function& function)
 
 TEST(BatchRenderer, RefusesWhatItsNumbersCannotCount)
 {
-    EXPECT_EQ(gpu::pixel_count(65535, 65537), 0xffff'ffffu);
+    EXPECT_EQ(fast::pixel_count(65535, 65537), 0xffff'ffffu);
     const auto size = [](int w, int h) {
-        return refusal_of([&] { (void)gpu::host_renderer(our_scene("cornell_glass"), w, h, {}, 1); });
+        return refusal_of([&] { (void)fast::host_renderer(our_scene("cornell_glass"), w, h, {}, 1); });
     };
     const std::string expected = " pixels: expected 1 to 4294967295 pixels";
     EXPECT_EQ(size(65536, 65536), "a picture of 65536x65536" + expected); // 2^32 would be none at all
@@ -120,13 +120,13 @@ TEST(BatchRenderer, RefusesWhatItsNumbersCannotCount)
     EXPECT_EQ(size(-2, -3), "a picture of -2x-3" + expected);
 
     const auto renderer =
-        gpu::host_renderer(our_scene("cornell_glass"), 2, 2, short_paths(Integrator::path), 1);
+        fast::host_renderer(our_scene("cornell_glass"), 2, 2, short_paths(Integrator::path), 1);
     const std::uint64_t last = (std::uint64_t{1} << 32) / 4 - 1; // of four samples per pixel
     EXPECT_TRUE(renderer->render_batch(last, {}));
     EXPECT_EQ(refusal_of([&] { (void)renderer->render_batch(last + 1, {}); }),
               "batch 1073741824 of 4 samples per pixel: a pixel has at most 2^32 samples");
-    EXPECT_EQ(gpu::first_sample_of(0xffff'ffff, 1), 0xffff'ffffu);
-    EXPECT_THROW((void)gpu::first_sample_of(std::uint64_t{1} << 62, 4), std::invalid_argument);
+    EXPECT_EQ(fast::first_sample_of(0xffff'ffff, 1), 0xffff'ffffu);
+    EXPECT_THROW((void)fast::first_sample_of(std::uint64_t{1} << 62, 4), std::invalid_argument);
 }
 
 RC_GTEST_PROP(BatchRenderer, DeterministicBitsDependOnNothingButTheSamples, ())
@@ -185,7 +185,7 @@ TEST(BatchRenderer, ABatchDoesNotDependOnThoseBefore)
 {
     auto options = short_paths(Integrator::bdpt);
     options.strategies = images::StrategyPictures::weighted;
-    const auto renderer = gpu::host_renderer(our_scene("cornell_glass"), width, height, options, 1);
+    const auto renderer = fast::host_renderer(our_scene("cornell_glass"), width, height, options, 1);
     const images::Batch first = *renderer->render_batch(0, {});
     const images::Batch second = *renderer->render_batch(1, {});
     EXPECT_FALSE(first.mean == second.mean);
@@ -200,7 +200,7 @@ TEST(BatchRenderer, WeightedLayersAddUpToThePicture)
         auto options = short_paths(Integrator::bdpt);
         options.strategies = images::StrategyPictures::weighted;
         options.deterministic = deterministic;
-        const auto renderer = gpu::host_renderer(our_scene("cornell_glass"), width, height, options, 2);
+        const auto renderer = fast::host_renderer(our_scene("cornell_glass"), width, height, options, 2);
         const images::Batch batch = *renderer->render_batch(0, {});
         // (s, t) of 1 to 5 edges.
         EXPECT_EQ(batch.strategies.size(), 2u + 3 + 4 + 5 + 6);
@@ -221,14 +221,14 @@ TEST(BatchRenderer, UnweightedLayersHoldWhatEachStrategyFound)
     auto options = short_paths(Integrator::bdpt);
     options.strategies = images::StrategyPictures::unweighted;
     options.deterministic = true;
-    const auto renderer = gpu::host_renderer(scene, width, height, options, 2);
+    const auto renderer = fast::host_renderer(scene, width, height, options, 2);
     const images::Batch batch = *renderer->render_batch(0, {});
     std::map<std::pair<int, int>, images::Rgb> expected;
     const Recorder recorder(scene, width, height);
     for (std::uint32_t pixel = 0; pixel < width * height; ++pixel)
         for (std::uint32_t sample = 0; sample < options.batch_size; ++sample)
             for (const Recorded& c :
-                 recorder.sample(recorder.needs(), Integrator::bdpt, {7, 5, gpu::Heuristic::balance},
+                 recorder.sample(recorder.needs(), Integrator::bdpt, {7, 5, fast::Heuristic::balance},
                                  {7, pixel, sample}))
                 expected[{c.s, c.t}] += images::Rgb(c.value);
     for (const auto& [strategy, image] : batch.strategies) {
@@ -243,7 +243,7 @@ TEST(BatchRenderer, UnweightedLayersHoldWhatEachStrategyFound)
 TEST(BatchRenderer, StopsBetweenLaunchesAndGoesOnAsIfNothingHadBeen)
 {
     const auto renderer =
-        gpu::host_renderer(our_scene("cornell_diffuse"), 100, 100, short_paths(Integrator::bdpt), 1);
+        fast::host_renderer(our_scene("cornell_diffuse"), 100, 100, short_paths(Integrator::bdpt), 1);
     const images::Image whole = renderer->render_batch(2, {})->mean;
     int asked = 0;
     std::vector<double> parts;
@@ -262,10 +262,10 @@ TEST(BatchRenderer, RefusesOptionsThatContradictEachOther)
     const auto scene = our_scene("cornell_diffuse");
     images::RenderOptions options;
     options.max_edges = 0;
-    EXPECT_THROW(gpu::host_renderer(scene, 8, 8, options, 1), std::invalid_argument);
+    EXPECT_THROW(fast::host_renderer(scene, 8, 8, options, 1), std::invalid_argument);
     options.max_edges = images::most_edges_of_strategies + 1;
     options.strategies = images::StrategyPictures::weighted;
-    EXPECT_THROW(gpu::host_renderer(scene, 8, 8, options, 1), std::invalid_argument);
+    EXPECT_THROW(fast::host_renderer(scene, 8, 8, options, 1), std::invalid_argument);
 }
 
 TEST(BatchRenderer, ASceneWithoutLightIsBlack)
@@ -285,13 +285,13 @@ TEST(Needs, LeavingOutWhatASceneDoesNotHaveChangesNothing)
     for (const auto& file : transport_test::our_scene_files()) {
         const scenes::Scene scene = scenes::read_scene(file);
         const Recorder recorder(scene, width, height);
-        const gpu::Needs needs = recorder.needs();
+        const fast::Needs needs = recorder.needs();
         seen[0][needs.spheres ? 1 : 0] = true;
         seen[1][needs.specular ? 1 : 0] = true;
         seen[2][needs.other_lights ? 1 : 0] = true;
         for (std::uint32_t pixel = 0; pixel < width * height; ++pixel)
             for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
-                const gpu::PathOptions options{1, 6, gpu::Heuristic::balance};
+                const fast::PathOptions options{1, 6, fast::Heuristic::balance};
                 EXPECT_EQ(recorder.sample(needs, integrator, options, {1, pixel, 0}),
                           recorder.sample({true, true, true}, integrator, options, {1, pixel, 0}))
                     << scene.name << ", pixel " << pixel;
@@ -310,7 +310,7 @@ TEST_F(RendererOnDevice, GivesTheHostsPicture)
         options.deterministic = true;
         const images::Image host = batch_of(scene, options, 1, 512, 0);
         const images::Image device =
-            gpu::device_renderer(scene, width, height, options)->render_batch(0, {})->mean;
+            fast::device_renderer(scene, width, height, options)->render_batch(0, {})->mean;
         // Sine, cosine and power differ in their last bits between the two: now and then a path takes
         // another turn, and a pixel of four samples is another. Most are the same to rounding.
         std::size_t different = 0;
@@ -325,7 +325,7 @@ TEST_F(RendererOnDevice, DeterministicMeansTheSameBitsAgain)
 {
     auto options = short_paths(Integrator::bdpt);
     options.deterministic = true;
-    const auto renderer = gpu::device_renderer(our_scene("cornell_glass"), 64, 64, options);
+    const auto renderer = fast::device_renderer(our_scene("cornell_glass"), 64, 64, options);
     const images::Image first = renderer->render_batch(0, {})->mean;
     for (int i = 0; i < 10; ++i) EXPECT_TRUE(renderer->render_batch(0, {})->mean == first);
 }

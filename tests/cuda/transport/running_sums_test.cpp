@@ -14,7 +14,7 @@
 
 namespace {
 
-using gpu::Heuristic;
+using fast::Heuristic;
 
 /// One walk from its end of a path: v_0 ... v_n, where v_n is joined to the last of the other walk. All
 /// densities of the walk itself are 1, so that those of the other walk are the quotients.
@@ -78,10 +78,10 @@ long double literal_sum(const HalfPath& half, int other_vertices, Heuristic heur
 }
 
 /// v_n, to be joined to a walk of `other_vertices`, by the sums that the walk carried to it.
-gpu::SubpathEnd end_of(const HalfPath& half, int other_vertices, Heuristic heuristic)
+fast::SubpathEnd end_of(const HalfPath& half, int other_vertices, Heuristic heuristic)
 {
     const auto& v = half.steps;
-    gpu::RunningSums sums(v[0].joinable, v[0].geometry_over_pdf);
+    fast::RunningSums sums(v[0].joinable, v[0].geometry_over_pdf);
     for (std::size_t i = 1; i + 1 < v.size(); ++i)
         sums.advance(v[i].joinable, v[i].pdf_rev_solid_angle, v[i].survival, v[i].geometry_over_pdf,
                      heuristic);
@@ -118,9 +118,9 @@ RC_GTEST_PROP(RunningSums, AreTheLiteralSums, ())
 TEST(RunningSums, StayFinite)
 {
     for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
-        gpu::RunningSums sums(true, 1e25f);
+        fast::RunningSums sums(true, 1e25f);
         for (int i = 0; i < 12; ++i) sums.advance(true, 1e25f, 1.0f, 1e25f, heuristic);
-        EXPECT_EQ(sums.bracket(true, 1e25f, 1.0f, 2, heuristic), gpu::largest_sum);
+        EXPECT_EQ(sums.bracket(true, 1e25f, 1.0f, 2, heuristic), fast::largest_sum);
         // So a quotient of 0, of what cannot be hit, leaves 0 and not NaN.
         sums.advance(true, 0.0f, 1.0f, 1.0f, heuristic);
         EXPECT_EQ(sums.bracket(false, 0.0f, 1.0f, 2, heuristic), 0.0f);
@@ -155,8 +155,8 @@ RC_GTEST_PROP(RunningSums, GiveStrategiesAtTheEndsOfAPathTheirShare, ())
     const Heuristic heuristic = any_heuristic();
     const long double none = literal_sum(v, 0, heuristic);
     const long double one = literal_sum(v, 1, heuristic);
-    const gpu::SubpathEnd joined_to_none = end_of(v, 0, heuristic);
-    const gpu::SubpathEnd joined_to_one = end_of(v, 1, heuristic);
+    const fast::SubpathEnd joined_to_none = end_of(v, 0, heuristic);
+    const fast::SubpathEnd joined_to_one = end_of(v, 1, heuristic);
     RC_ASSERT(is_share(emission_hit_weight(heuristic, joined_to_none), 0, none, v.vertices()));
     RC_ASSERT(is_share(light_image_weight(heuristic, joined_to_one), one, 0, v.vertices()));
     const float pdf_rev = any_density();
@@ -170,12 +170,12 @@ RC_GTEST_PROP(RunningSums, BalanceTheTwoStrategiesOfPathTracing, ())
 {
     const float hit = any_density();
     const float next_event = any_density();
-    RC_ASSERT(is_share(gpu::path_emission_hit_weight(true, hit, next_event), 0,
+    RC_ASSERT(is_share(fast::path_emission_hit_weight(true, hit, next_event), 0,
                        static_cast<long double>(next_event) / hit, 1));
-    RC_ASSERT(is_share(gpu::path_next_event_weight(hit, next_event), 0,
+    RC_ASSERT(is_share(fast::path_next_event_weight(hit, next_event), 0,
                        static_cast<long double>(hit) / next_event, 1));
-    RC_ASSERT(gpu::path_emission_hit_weight(false, hit, next_event) == 1.0f);
-    RC_ASSERT(gpu::path_next_event_weight(0.0f, next_event) == 1.0f);
+    RC_ASSERT(fast::path_emission_hit_weight(false, hit, next_event) == 1.0f);
+    RC_ASSERT(fast::path_next_event_weight(0.0f, next_event) == 1.0f);
 }
 
 } // namespace

@@ -19,19 +19,19 @@ constexpr std::size_t pixels = 3; // few: threads meet often
 /// Kernel over splats.
 struct AddSplats {
     std::span<const float> values;
-    gpu::SplatTarget target;
-    void operator()(std::uint32_t i) const { target.add(i % pixels, gpu::Rgb(values[i])); }
+    fast::SplatTarget target;
+    void operator()(std::uint32_t i) const { target.add(i % pixels, fast::Rgb(values[i])); }
 };
 
 /// The same with a sum that is read and written in two steps.
 struct AddTornSplats {
     std::span<const float> values;
-    std::span<gpu::Rgb> sums;
+    std::span<fast::Rgb> sums;
     void operator()(std::uint32_t i) const
     {
-        const gpu::Rgb before = sums[i % pixels];
-        if (gpu::schedule_point != nullptr) gpu::schedule_point();
-        sums[i % pixels] = before + gpu::Rgb(values[i]);
+        const fast::Rgb before = sums[i % pixels];
+        if (fast::schedule_point != nullptr) fast::schedule_point();
+        sums[i % pixels] = before + fast::Rgb(values[i]);
     }
 };
 
@@ -52,7 +52,7 @@ double expected(const std::vector<float>& values, std::size_t pixel)
 }
 
 /// Whether floats hold the sums: every addition of terms >= 0 errs by at most 2^-24 of the sum.
-bool hold(const std::vector<gpu::Rgb>& sums, const std::vector<float>& values)
+bool hold(const std::vector<fast::Rgb>& sums, const std::vector<float>& values)
 {
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
         const double sum = expected(values, pixel);
@@ -67,14 +67,14 @@ template <class Executor>
 void expect_all_there(Executor& executor, const std::vector<float>& values)
 {
     const auto count = static_cast<std::uint32_t>(values.size());
-    std::vector<gpu::Rgb> sums(pixels, gpu::Rgb(0.0f));
+    std::vector<fast::Rgb> sums(pixels, fast::Rgb(0.0f));
     executor(count, AddSplats{values, {sums, {}}});
     RC_ASSERT(hold(sums, values));
 
-    std::vector<gpu::ExactSum> exact(3 * pixels);
-    std::vector<gpu::ExactSum> in_order(3 * pixels);
+    std::vector<fast::ExactSum> exact(3 * pixels);
+    std::vector<fast::ExactSum> in_order(3 * pixels);
     executor(count, AddSplats{values, {{}, exact}});
-    gpu::SerialExecutor{}(count, AddSplats{values, {{}, in_order}});
+    fast::SerialExecutor{}(count, AddSplats{values, {{}, in_order}});
     for (std::size_t i = 0; i < exact.size(); ++i) RC_ASSERT(exact[i].value() == in_order[i].value());
 }
 
@@ -88,7 +88,7 @@ RC_GTEST_PROP(Splats, AreAllThereInEveryOrderOfAtomicSteps, ())
 
 RC_GTEST_PROP(Splats, AreAllThereFromRealThreads, ())
 {
-    gpu::ThreadedExecutor executor(*rc::gen::inRange(1u, 5u), 1);
+    fast::ThreadedExecutor executor(*rc::gen::inRange(1u, 5u), 1);
     expect_all_there(executor, some_values(2, *rc::gen::inRange<std::size_t>(0, 3000)));
 }
 
@@ -101,7 +101,7 @@ TEST(Splats, ThatAreTornAreFound)
         std::mt19937 chooser(seed);
         cuda_test::InterleavedExecutor executor(
             4, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(chooser() % ready); });
-        std::vector<gpu::Rgb> sums(pixels, gpu::Rgb(0.0f));
+        std::vector<fast::Rgb> sums(pixels, fast::Rgb(0.0f));
         executor(32, AddTornSplats{values, sums});
         if (!hold(sums, values)) ++found;
     }

@@ -27,7 +27,7 @@
 // A comparison is a t test over independent batches. 7 standard errors with 31 degrees of freedom are
 // passed by chance once in 10^7 times.
 
-#include "cuda/transport/renderer.h"
+#include "cuda/launch/renderer.h"
 #include "ref/transport/path_tracer.h"
 #include "ref/transport/render.h"
 
@@ -101,9 +101,9 @@ scenes::Scene spot_over_plane(const Spot& spot)
     return scene;
 }
 
-std::string name_of(gpu::Integrator integrator)
+std::string name_of(fast::Integrator integrator)
 {
-    using enum gpu::Integrator;
+    using enum fast::Integrator;
     return integrator == path ? "path" : integrator == bdpt ? "bdpt" : "light";
 }
 
@@ -132,14 +132,14 @@ private:
 };
 
 /// On the fast path.
-Sums pictures(const scenes::Scene& scene, gpu::Integrator integrator, std::uint32_t batch_size)
+Sums pictures(const scenes::Scene& scene, fast::Integrator integrator, std::uint32_t batch_size)
 {
     images::RenderOptions options;
     options.integrator = integrator;
     options.max_edges = 2;
     options.seed = 5;
     options.batch_size = batch_size;
-    const auto renderer = gpu::host_renderer(scene, size, size, options, 2);
+    const auto renderer = fast::host_renderer(scene, size, size, options, 2);
     Sums sums;
     for (std::uint64_t i = 0; i < batches; ++i) {
         const images::Batch batch = *renderer->render_batch(i, {});
@@ -160,7 +160,7 @@ TEST_P(SpotLights, ShedThePowerOfTheirConeInEveryIntegrator)
 {
     const Spot spot = GetParam();
     const scenes::Scene scene = spot_over_plane(spot);
-    using enum gpu::Integrator;
+    using enum fast::Integrator;
     for (const auto integrator : {path, bdpt, light}) {
         // Light walks spread over the whole cone: many miss a lobe that is much narrower.
         const bool hard = integrator != path && spot.exponent > 0;
@@ -199,7 +199,7 @@ std::string refusal_of(const Spot& spot)
     scenes::Scene scene = spot_over_plane(Spot{1, 0});
     scene.spot_lights.push_back(spot_over_plane(spot).spot_lights[0]);
     try {
-        (void)gpu::host_renderer(scene, 1, 1, {}, 1);
+        (void)fast::host_renderer(scene, 1, 1, {}, 1);
     } catch (const std::invalid_argument& error) {
         return error.what();
     }

@@ -1,7 +1,7 @@
 // What lies closer together than 2^-20 of the scene, on the fast path: its clearance follows from what a
 // ray leaves, and not from the size of the scene. Against the reference, from the same random numbers.
 
-#include "cuda/transport/renderer.h"
+#include "cuda/launch/renderer.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 #include "tests/cuda/transport/batch_means.h"
@@ -83,9 +83,9 @@ void expect_same(const cuda_test::Means& floats, const cuda_test::Means& doubles
 void expect_as_by_the_reference(const scenes::Scene& scene, int max_edges)
 {
     constexpr cuda_test::Samples samples{16, 32, 4};
-    expect_same(means_by_host(scene, gpu::Integrator::path, max_edges, 1, samples),
+    expect_same(means_by_host(scene, fast::Integrator::path, max_edges, 1, samples),
                 means_by_ref(scene, ref::trace_path, max_edges, 1, samples), "path");
-    expect_same(means_by_host(scene, gpu::Integrator::bdpt, max_edges, 1, samples),
+    expect_same(means_by_host(scene, fast::Integrator::bdpt, max_edges, 1, samples),
                 means_by_ref(scene, ref::trace_bidirectionally, max_edges, 1, samples), "bdpt");
 }
 
@@ -141,7 +141,7 @@ TEST(ThinThings, ALampThatCoversAnotherHidesIt)
                                           uncovered.triangles.begin() + 16);
                 constexpr cuda_test::Samples samples{8, 4, 4};
                 for (const auto integrator :
-                     {gpu::Integrator::path, gpu::Integrator::bdpt, gpu::Integrator::light}) {
+                     {fast::Integrator::path, fast::Integrator::bdpt, fast::Integrator::light}) {
                     const double seen =
                         cuda_test::average(means_by_host(scene, integrator, 3, 1, samples));
                     const double all =

@@ -37,7 +37,7 @@ Means by_ref(const scenes::Scene& scene, ref::Integrator integrator, int max_edg
     return cuda_test::means_by_ref(scene, integrator, max_edges, seed, samples);
 }
 
-Means by_host(const scenes::Scene& scene, gpu::Integrator integrator, int max_edges, std::uint64_t seed)
+Means by_host(const scenes::Scene& scene, fast::Integrator integrator, int max_edges, std::uint64_t seed)
 {
     return cuda_test::means_by_host(scene, integrator, max_edges, seed, samples);
 }
@@ -98,9 +98,9 @@ TEST_P(TouchingScenes, AreTheSameForAllIntegratorsOnBothWingsAndInTheLimit)
                          "light and bdpt");
 
         // A sample in 2^14 that goes another way in floats changes the mean by about as much.
-        expect_agree_paired(by_host(scene, gpu::Integrator::path, max_edges, seed), path, 1e-4,
+        expect_agree_paired(by_host(scene, fast::Integrator::path, max_edges, seed), path, 1e-4,
                             "path on both wings");
-        expect_agree_paired(by_host(scene, gpu::Integrator::bdpt, max_edges, seed + 1000), bdpt, 1e-4,
+        expect_agree_paired(by_host(scene, fast::Integrator::bdpt, max_edges, seed + 1000), bdpt, 1e-4,
                             "bdpt on both wings");
 
         expect_agree_paired(limit_of(kind, seed, max_edges), path, 1e-4, "path and its limit");

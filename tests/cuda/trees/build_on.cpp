@@ -1,7 +1,7 @@
 #include "tests/cuda/trees/build_on.h"
 
+#include "cuda/launch/device_lbvh.h"
 #include "cuda/parallel/threaded_executor.h"
-#include "cuda/trees/device_lbvh.h"
 #include "cuda/trees/lbvh.h"
 #include "tests/cuda/parallel/interleaved_executor.h"
 
@@ -12,33 +12,33 @@ namespace cuda_test {
 
 namespace {
 
-template <class Code, gpu::Executor E>
-Built build_with(E& executor, std::span<const gpu::Box> boxes)
+template <class Code, fast::Executor E>
+Built build_with(E& executor, std::span<const fast::Aabb> boxes)
 {
-    gpu::HostMemory memory;
-    gpu::Lbvh<Code> tree(memory, executor, static_cast<std::uint32_t>(boxes.size()));
+    fast::HostMemory memory;
+    fast::Lbvh<Code> tree(memory, executor, static_cast<std::uint32_t>(boxes.size()));
     tree.build(executor, boxes);
-    gpu::throw_if_rejected(tree.first_rejected(), boxes);
+    fast::throw_if_rejected(tree.first_rejected(), boxes);
     return copy_of(tree);
 }
 
-template <gpu::Executor E>
-Built build_with(E& executor, int code_bits, std::span<const gpu::Box> boxes)
+template <fast::Executor E>
+Built build_with(E& executor, int code_bits, std::span<const fast::Aabb> boxes)
 {
     return code_bits == 30 ? build_with<std::uint32_t>(executor, boxes)
                            : build_with<std::uint64_t>(executor, boxes);
 }
 
-Built build_on_device(int code_bits, std::span<const gpu::Box> boxes)
+Built build_on_device(int code_bits, std::span<const fast::Aabb> boxes)
 {
-    gpu::DeviceLbvh tree(static_cast<std::uint32_t>(boxes.size()), code_bits);
+    fast::DeviceLbvh tree(static_cast<std::uint32_t>(boxes.size()), code_bits);
     tree.build(boxes);
-    gpu::BuiltTree built = tree.download();
+    fast::BuiltTree built = tree.download();
     return {std::move(built.nodes), std::move(built.leaf_links), std::move(built.primitives),
             std::move(built.codes)};
 }
 
-ref::Vec3 exactly(const gpu::Vec3& v)
+ref::Vec3 exactly(const fast::Vec3& v)
 {
     return {v.x, v.y, v.z};
 }
@@ -51,15 +51,15 @@ std::string name(const Setup& setup)
     return names[static_cast<std::size_t>(setup.on)] + std::to_string(setup.code_bits);
 }
 
-Built build_on(const Setup& setup, std::span<const gpu::Box> boxes, std::uint64_t seed)
+Built build_on(const Setup& setup, std::span<const fast::Aabb> boxes, std::uint64_t seed)
 {
     switch (setup.on) {
     case On::serial: {
-        gpu::SerialExecutor executor;
+        fast::SerialExecutor executor;
         return build_with(executor, setup.code_bits, boxes);
     }
     case On::threads: { // three, so that sizes divide badly; blocks of one while that is not too slow
-        gpu::ThreadedExecutor executor(3, boxes.size() < 1000 ? 1 : 4096);
+        fast::ThreadedExecutor executor(3, boxes.size() < 1000 ? 1 : 4096);
         return build_with(executor, setup.code_bits, boxes);
     }
     case On::interleaved: {
@@ -74,7 +74,7 @@ Built build_on(const Setup& setup, std::span<const gpu::Box> boxes, std::uint64_
     return build_on_device(setup.code_bits, boxes);
 }
 
-ref::Tree neutral(const Built& built, const gpu::Box& root)
+ref::Tree neutral(const Built& built, const fast::Aabb& root)
 {
     ref::Tree tree;
     const std::size_t n = built.primitives.size();
@@ -88,7 +88,7 @@ ref::Tree neutral(const Built& built, const gpu::Box& root)
     if (n > 1) tree.bounds[0] = exactly(unite(built.nodes[0].bounds[0], built.nodes[0].bounds[1]));
 
     const auto set_parent = [&](std::size_t node, std::uint32_t link) {
-        if (link == gpu::no_node) return;
+        if (link == fast::no_node) return;
         tree.nodes[node].parent = link >> 1;
         tree.bounds[node] = exactly(built.nodes.at(link >> 1).bounds[link & 1]);
     };
@@ -96,8 +96,8 @@ ref::Tree neutral(const Built& built, const gpu::Box& root)
         for (std::size_t side = 0; side < 2; ++side) {
             const std::uint32_t child = built.nodes[i].children[side];
             tree.nodes[i].children[side] =
-                gpu::is_leaf(child) ? static_cast<std::uint32_t>(n - 1) + (child & ~gpu::leaf_bit)
-                                    : child;
+                fast::is_leaf(child) ? static_cast<std::uint32_t>(n - 1) + (child & ~fast::leaf_bit)
+                                     : child;
         }
         set_parent(i, built.nodes[i].link);
     }
@@ -105,22 +105,22 @@ ref::Tree neutral(const Built& built, const gpu::Box& root)
     return tree;
 }
 
-ref::Aabb exactly(const gpu::Box& box)
+ref::Aabb exactly(const fast::Aabb& box)
 {
     return {exactly(box.lower), exactly(box.upper)};
 }
 
-std::vector<ref::Aabb> exactly(std::span<const gpu::Box> boxes)
+std::vector<ref::Aabb> exactly(std::span<const fast::Aabb> boxes)
 {
     std::vector<ref::Aabb> result;
-    for (const gpu::Box& box : boxes) result.push_back(exactly(box));
+    for (const fast::Aabb& box : boxes) result.push_back(exactly(box));
     return result;
 }
 
-std::vector<gpu::Box> rounded(std::span<const ref::Aabb> boxes)
+std::vector<fast::Aabb> rounded(std::span<const ref::Aabb> boxes)
 {
-    std::vector<gpu::Box> result;
-    for (const ref::Aabb& box : boxes) result.push_back({gpu::Vec3(box.lower), gpu::Vec3(box.upper)});
+    std::vector<fast::Aabb> result;
+    for (const ref::Aabb& box : boxes) result.push_back({fast::Vec3(box.lower), fast::Vec3(box.upper)});
     return result;
 }
 

@@ -23,13 +23,13 @@ struct Setup {
 std::string name(const Setup& setup);
 
 struct Built {
-    std::vector<gpu::Node> nodes;
+    std::vector<fast::Node> nodes;
     std::vector<std::uint32_t> leaf_links;
     std::vector<std::uint32_t> primitives;
     std::vector<std::uint64_t> codes; // sorted
 };
 
-/// What the last build of a gpu::Lbvh in host memory left.
+/// What the last build of a fast::Lbvh in host memory left.
 template <class Tree>
 Built copy_of(const Tree& tree)
 {
@@ -41,17 +41,17 @@ Built copy_of(const Tree& tree)
 
 /// Throws std::invalid_argument that names a box that is none. For the interleaved executor `seed`
 /// decides the schedule.
-Built build_on(const Setup& setup, std::span<const gpu::Box> boxes, std::uint64_t seed = 1);
+Built build_on(const Setup& setup, std::span<const fast::Aabb> boxes, std::uint64_t seed = 1);
 
 /// The tree as ref/trees/tree.h numbers its nodes. Parents are read from the links, children from the
-/// children: that they agree remains to be seen. `root` is the box of a tree that has no inner node.
-ref::Tree neutral(const Built& built, const gpu::Box& root);
+/// children: that they agree remains to be seen. `root` is the box of a tree that has no internal node.
+ref::Tree neutral(const Built& built, const fast::Aabb& root);
 
 /// Exactly the same numbers.
-ref::Aabb exactly(const gpu::Box& box);
-std::vector<ref::Aabb> exactly(std::span<const gpu::Box> boxes);
+ref::Aabb exactly(const fast::Aabb& box);
+std::vector<ref::Aabb> exactly(std::span<const fast::Aabb> boxes);
 
 /// Each coordinate to the nearest float: still no box is empty that was not.
-std::vector<gpu::Box> rounded(std::span<const ref::Aabb> boxes);
+std::vector<fast::Aabb> rounded(std::span<const ref::Aabb> boxes);
 
 } // namespace cuda_test

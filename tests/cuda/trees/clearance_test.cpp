@@ -13,12 +13,12 @@
 
 namespace {
 
-using gpu::Hit;
-using gpu::Ray;
-using gpu::Sphere;
-using gpu::SurfaceTree;
-using gpu::Triangle;
-using gpu::Vec3;
+using fast::Hit;
+using fast::Ray;
+using fast::Sphere;
+using fast::SurfaceTree;
+using fast::Triangle;
+using fast::Vec3;
 using trees_test::Random;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -30,8 +30,8 @@ struct World {
         : triangles(std::move(given_triangles)), spheres(std::move(given_spheres)),
           tree(memory, executor, triangles, spheres)
     {}
-    gpu::HostMemory memory;
-    gpu::SerialExecutor executor;
+    fast::HostMemory memory;
+    fast::SerialExecutor executor;
     std::vector<Triangle> triangles;
     std::vector<Sphere> spheres;
     SurfaceTree tree;
@@ -47,12 +47,12 @@ Point on_triangle(const World& world, std::size_t triangle, float b1, float b2)
     const auto& v = world.triangles[triangle].vertices;
     const Vec3 e1 = v[1] - v[0];
     const Vec3 e2 = v[2] - v[0];
-    gpu::move_off_edges(gpu::edge_margin(v[0], e1, e2), b1, b2);
+    fast::move_off_edges(fast::edge_margin(v[0], e1, e2), b1, b2);
     const Vec3 position = v[0] + (b1 * e1 + b2 * e2);
     const Vec3 normal = glm::normalize(glm::cross(e1, e2));
     return {position, normal,
-            gpu::clearance_at(position, normal,
-                              gpu::triangle_clearance(normal, e1, e2, gpu::triangle_extent(e1, e2)))};
+            fast::clearance_at(position, normal,
+                               fast::triangle_clearance(normal, e1, e2, fast::triangle_extent(e1, e2)))};
 }
 
 Point on_sphere(const World& world, std::size_t sphere, const Vec3& direction)
@@ -60,7 +60,7 @@ Point on_sphere(const World& world, std::size_t sphere, const Vec3& direction)
     const auto& [center, radius] = world.spheres[sphere];
     const Vec3 normal = glm::normalize(direction);
     const Vec3 position = center + radius * normal;
-    return {position, normal, gpu::clearance_at(position, normal, gpu::sphere_clearance(radius))};
+    return {position, normal, fast::clearance_at(position, normal, fast::sphere_clearance(radius))};
 }
 
 Point at(const World& world, const Ray& ray, const Hit& hit)
@@ -72,14 +72,14 @@ Point at(const World& world, const Ray& ray, const Hit& hit)
 
 Vec3 leave(const Point& point, const Vec3& direction)
 {
-    return gpu::leave_surface(point.position, point.normal, point.clearance, direction);
+    return fast::leave_surface(point.position, point.normal, point.clearance, direction);
 }
 
 /// Where a segment ends that comes to `point` from `back`.
 Vec3 end_at(const Point& point, const Vec3& back)
 {
-    const float clearance = point.clearance + gpu::clearance_per_length * glm::length(back);
-    return gpu::leave_surface(point.position, point.normal, clearance, back);
+    const float clearance = point.clearance + fast::clearance_per_length * glm::length(back);
+    return fast::leave_surface(point.position, point.normal, clearance, back);
 }
 
 /// As a ray finds it.
@@ -88,8 +88,8 @@ std::optional<Point> find_point(const World& world, const trees_test::Vec3& targ
 {
     const trees_test::Vec3 origin = target + size * random.magnitude(-2, 2) * random.direction();
     const Ray ray{Vec3(origin), infinity, Vec3((target - origin) * random.magnitude(-2, 2))};
-    const Hit hit = closest_hit(world.tree.view<true>(), ray);
-    if (hit.primitive == gpu::no_primitive) return std::nullopt;
+    const Hit hit = intersect(world.tree.view<true>(), ray);
+    if (hit.primitive == fast::no_primitive) return std::nullopt;
     return at(world, ray, hit);
 }
 
@@ -176,7 +176,7 @@ RC_GTEST_PROP(LeaveSurfaceInFloat, ARayFromATriangleMeetsNeitherItNorItsDuplicat
             if (!point) continue; // the aim is rounded: slivers can be missed
             ++found;
             const Vec3 d = away_from(point->normal, least, random);
-            RC_ASSERT(!any_hit(world.tree.view<false>(), {leave(*point, d), infinity, d}));
+            RC_ASSERT(!occluded(world.tree.view<false>(), {leave(*point, d), infinity, d}));
         }
         RC_ASSERT(found > 10 || s.aspect * std::max(s.offset / s.size, 1.0) > 1e3);
     }
@@ -225,7 +225,7 @@ TEST(LeaveSurfaceInFloat, ARayMeetsNoLargerNeighbourInThePlane)
                 // The corners are rounded: the planes differ by that angle.
                 const double least = 64 * u * (1 + offset);
                 const Vec3 d = away_from(point.normal, least, random);
-                met += any_hit(world.tree.view<false>(), {leave(point, d), infinity, d}) ? 1 : 0;
+                met += occluded(world.tree.view<false>(), {leave(point, d), infinity, d}) ? 1 : 0;
             }
             EXPECT_EQ(met, 0) << "larger by " << larger << " offset " << offset;
         }
@@ -241,7 +241,7 @@ TEST(LeaveSurfaceInFloat, DoesNotDependOnHowLargeTheRestOfTheSceneIs)
                           {});
         const Point point = on_triangle(world, 0, 0.3f, 0.3f);
         const Vec3 up(0.1f, 0.2f, 1.0f);
-        EXPECT_EQ(closest_hit(world.tree.view<false>(), {leave(point, up), infinity, up}).primitive, 1u);
+        EXPECT_EQ(intersect(world.tree.view<false>(), {leave(point, up), infinity, up}).primitive, 1u);
     }
 }
 
@@ -274,13 +274,13 @@ RC_GTEST_PROP(LeaveSurfaceInFloat, ARayOutOfASphereDoesNotMeetItAndOneIntoItMeet
                 continue;
             }
             const Vec3 d = away_from(point->normal, 1e-6, random);
-            const Hit hit = closest_hit(world.tree.view<true>(), {leave(*point, d), infinity, d});
+            const Hit hit = intersect(world.tree.view<true>(), {leave(*point, d), infinity, d});
             // The sign of the cosine that counts is the one leave_surface sees.
             const double side = glm::dot(d, point->normal);
             const double speed = glm::length(trees_test::Vec3(d));
             const double cosine = glm::dot(trees_test::Vec3(d), trees_test::Vec3(point->normal)) / speed;
             if (side >= 0) {
-                RC_ASSERT(hit.primitive == gpu::no_primitive);
+                RC_ASSERT(hit.primitive == fast::no_primitive);
             } else {
                 // The chord is 2 r |cos|, and no shorter from a point inside: anything under half is the
                 // surface that was left.
@@ -295,7 +295,7 @@ bool sees(const World& world, const Point& p, const Point& q)
     const Vec3 d = q.position - p.position;
     const Vec3 from = leave(p, d);
     const Vec3 to = end_at(q, -d);
-    return !any_hit(world.tree.view<true>(), {from, 1.0f, to - from});
+    return !occluded(world.tree.view<true>(), {from, 1.0f, to - from});
 }
 
 double cosine_at(const Point& p, const Point& to)
@@ -309,7 +309,7 @@ double cosine_at(const Point& p, const Point& to)
 double least_cosine_of(const Point& p, const Point& q, double aspect)
 {
     const double length = glm::length(trees_test::Vec3(q.position) - trees_test::Vec3(p.position));
-    const double moved = p.clearance + q.clearance + gpu::clearance_per_length * length;
+    const double moved = p.clearance + q.clearance + fast::clearance_per_length * length;
     return 16 * u * aspect + 2 * std::sqrt(3.0) * moved / length;
 }
 
@@ -401,8 +401,8 @@ TEST(LeaveSurfaceInFloat, AWalkThatStaysInsideABoxNeverLeavesIt)
             Ray ray{Vec3(mesh.inside + scale * trees_test::Vec3(0.7)), infinity,
                     Vec3(random.direction())};
             for (int i = 0; i < 100'000; ++i) {
-                const Hit hit = closest_hit(world.tree.view<true>(), ray);
-                ASSERT_NE(hit.primitive, gpu::no_primitive) << "bounce " << i;
+                const Hit hit = intersect(world.tree.view<true>(), ray);
+                ASSERT_NE(hit.primitive, fast::no_primitive) << "bounce " << i;
                 const Point point = at(world, ray, hit);
                 Vec3 d(random.direction());
                 if ((glm::dot(d, point.normal) < 0) == (glm::dot(ray.direction, point.normal) < 0))
@@ -435,14 +435,14 @@ void expect_no_way_out_of_edges(double shear, double scale, double offset, std::
             const trees_test::Vec3 target =
                 glm::mix(a, b, random.uniform()) + random.magnitude(-9, -5) * (c - a);
             const Ray ray{Vec3(by), infinity, Vec3(target - by)};
-            const Hit hit = closest_hit(world.tree.view<false>(), ray);
-            ASSERT_NE(hit.primitive, gpu::no_primitive);
+            const Hit hit = intersect(world.tree.view<false>(), ray);
+            ASSERT_NE(hit.primitive, fast::no_primitive);
             const Point point = at(world, ray, hit);
             Vec3 d(random.direction());
             if (glm::dot(d, point.normal) * glm::dot(Vec3(by) - point.position, point.normal) < 0)
                 d = -d;
-            ASSERT_NE(closest_hit(world.tree.view<false>(), {leave(point, d), infinity, d}).primitive,
-                      gpu::no_primitive)
+            ASSERT_NE(intersect(world.tree.view<false>(), {leave(point, d), infinity, d}).primitive,
+                      fast::no_primitive)
                 << "box " << box << ", ray " << i;
         }
     }

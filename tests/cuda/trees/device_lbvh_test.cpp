@@ -1,6 +1,6 @@
 // What only a GPU can show.
 
-#include "cuda/trees/device_lbvh.h"
+#include "cuda/launch/device_lbvh.h"
 
 #include "cuda/parallel/memory.h"
 #include "cuda/trees/surfaces.h"
@@ -23,14 +23,14 @@ using cuda_test::OnDevice;
 using trees_test::Kind;
 using trees_test::Random;
 
-std::vector<gpu::Box> some_boxes(std::size_t n, std::uint64_t seed)
+std::vector<fast::Aabb> some_boxes(std::size_t n, std::uint64_t seed)
 {
     Random random(seed);
     return cuda_test::rounded(trees_test::boxes(Kind::uniform, n, random));
 }
 
 /// Whether both have the same bits everywhere.
-bool same(const gpu::BuiltTree& device, const Built& host)
+bool same(const fast::BuiltTree& device, const Built& host)
 {
     using Words = std::array<std::uint32_t, 16>;
     bool nodes = device.nodes.size() == host.nodes.size();
@@ -44,7 +44,7 @@ TEST(WithoutADevice, ATreeOnItSaysWhy)
 {
     if (found_device().usable) GTEST_SKIP() << "there is one: " << found_device().description;
     try {
-        const gpu::DeviceLbvh tree(1, 30);
+        const fast::DeviceLbvh tree(1, 30);
         FAIL();
     } catch (const std::runtime_error& error) {
         EXPECT_EQ(error.what(), found_device().description);
@@ -54,7 +54,7 @@ TEST(WithoutADevice, ATreeOnItSaysWhy)
 TEST_F(OnDevice, TenThousandBuildsEqualTheSerialOne)
 {
     for (const int code_bits : {30, 63}) {
-        gpu::DeviceLbvh tree(5000, code_bits);
+        fast::DeviceLbvh tree(5000, code_bits);
         for (std::uint64_t seed = 0; seed < 50; ++seed) {
             const auto boxes = some_boxes(seed * 100 + 1, seed);
             const Built expected = build_on({cuda_test::On::serial, code_bits}, boxes);
@@ -69,7 +69,7 @@ TEST_F(OnDevice, TenThousandBuildsEqualTheSerialOne)
 TEST_F(OnDevice, ABuildCanBeCapturedInAGraph)
 {
     const auto boxes = some_boxes(3000, 1);
-    gpu::DeviceLbvh tree(3000, 30);
+    fast::DeviceLbvh tree(3000, 30);
     tree.build(boxes);
     tree.build_as_graph();
     EXPECT_TRUE(same(tree.download(), build_on({cuda_test::On::serial, 30}, boxes)));
@@ -78,7 +78,7 @@ TEST_F(OnDevice, ABuildCanBeCapturedInAGraph)
 TEST_F(OnDevice, StagesTakeTimeAndGiveTheSameTree)
 {
     const auto boxes = some_boxes(3000, 1);
-    gpu::DeviceLbvh tree(3000, 63);
+    fast::DeviceLbvh tree(3000, 63);
     tree.build(boxes);
     for (const float milliseconds : tree.time_stages()) EXPECT_GT(milliseconds, 0);
     EXPECT_TRUE(same(tree.download(), build_on({cuda_test::On::serial, 63}, boxes)));
@@ -88,22 +88,23 @@ TEST_F(OnDevice, RaysFindTheHitsThatTheHostFinds) // bit for bit: no multiply-ad
 {
     const auto triangles = cuda_test::triangles_of(trees_test::icosphere(4, 0.5));
     Random random(1);
-    std::vector<gpu::Sphere> spheres;
+    std::vector<fast::Sphere> spheres;
     for (int i = 0; i < 100; ++i)
-        spheres.push_back({gpu::Vec3(random.in_cube()), static_cast<float>(random.magnitude(-2, -0.5))});
-    std::vector<gpu::Ray> rays;
+        spheres.push_back(
+            {fast::Vec3(random.in_cube()), static_cast<float>(random.magnitude(-2, -0.5))});
+    std::vector<fast::Ray> rays;
     for (int i = 0; i < 10000; ++i)
-        rays.push_back({gpu::Vec3(2.0 * random.in_cube()), std::numeric_limits<float>::infinity(),
-                        gpu::Vec3(random.direction())});
-    gpu::HostMemory memory;
-    gpu::SerialExecutor executor;
+        rays.push_back({fast::Vec3(2.0 * random.in_cube()), std::numeric_limits<float>::infinity(),
+                        fast::Vec3(random.direction())});
+    fast::HostMemory memory;
+    fast::SerialExecutor executor;
     using Words = std::array<std::uint32_t, 4>;
-    for (const auto& with : {spheres, std::vector<gpu::Sphere>()}) {
-        const std::vector<gpu::Hit> hits = gpu::closest_hits_on_device(triangles, with, rays);
-        const gpu::SurfaceTree host(memory, executor, triangles, with);
+    for (const auto& with : {spheres, std::vector<fast::Sphere>()}) {
+        const std::vector<fast::Hit> hits = fast::intersect_on_device(triangles, with, rays);
+        const fast::SurfaceTree host(memory, executor, triangles, with);
         for (std::size_t i = 0; i < rays.size(); ++i)
             ASSERT_EQ(std::bit_cast<Words>(hits[i]),
-                      std::bit_cast<Words>(closest_hit(host.view<true>(), rays[i])))
+                      std::bit_cast<Words>(intersect(host.view<true>(), rays[i])))
                 << i;
     }
 }
@@ -111,17 +112,17 @@ TEST_F(OnDevice, RaysFindTheHitsThatTheHostFinds) // bit for bit: no multiply-ad
 TEST_F(OnDevice, OutOfMemoryNamesBytesAndLeavesTheDeviceUsable)
 {
     const auto boxes = some_boxes(100, 1);
-    std::vector<std::unique_ptr<gpu::DeviceLbvh>> held;
+    std::vector<std::unique_ptr<fast::DeviceLbvh>> held;
     std::string message;
     try {
-        for (int i = 0; i < 100; ++i) held.push_back(std::make_unique<gpu::DeviceLbvh>(1u << 27, 63));
-    } catch (const gpu::OutOfMemory& error) {
+        for (int i = 0; i < 100; ++i) held.push_back(std::make_unique<fast::DeviceLbvh>(1u << 27, 63));
+    } catch (const fast::OutOfMemory& error) {
         message = error.what();
     }
     EXPECT_NE(message.find("device memory is exhausted: "), std::string::npos) << message;
     EXPECT_NE(message.find(" bytes wanted, "), std::string::npos) << message;
     held.clear();
-    gpu::DeviceLbvh tree(100, 30);
+    fast::DeviceLbvh tree(100, 30);
     tree.build(boxes);
     EXPECT_TRUE(same(tree.download(), build_on({cuda_test::On::serial, 30}, boxes)));
 }

@@ -2,9 +2,8 @@
 
 #include "cuda/trees/hploc.h"
 
+#include "cuda/launch/device_lbvh.h"
 #include "cuda/parallel/threaded_executor.h"
-#include "cuda/trees/device_lbvh.h"
-#include "cuda/trees/sah_cost.h"
 #include "ref/trees/bvh.h"
 #include "ref/trees/is_valid_tree.h"
 #include "ref/trees/quality.h"
@@ -13,6 +12,7 @@
 #include "tests/cuda/trees/build_on.h"
 #include "tests/cuda/trees/triangles.h"
 #include "tests/ref/trees/boxes.h"
+#include "cuda/trees/sah_cost.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -31,14 +31,14 @@ using Lines = std::vector<std::string>;
 
 class HplocOnDevice : public cuda_test::OnDevice {};
 
-template <gpu::Executor E>
-Built cluster(E& executor, std::span<const gpu::Box> boxes)
+template <fast::Executor E>
+Built cluster(E& executor, std::span<const fast::Aabb> boxes)
 {
-    gpu::HostMemory memory;
+    fast::HostMemory memory;
     const auto n = static_cast<std::uint32_t>(boxes.size());
-    gpu::Lbvh<std::uint64_t> sorted(memory, executor, n);
+    fast::Lbvh<std::uint64_t> sorted(memory, executor, n);
     sorted.build(executor, boxes);
-    gpu::Hploc tree(memory, n);
+    fast::Hploc tree(memory, n);
     tree.build(executor, boxes, sorted);
     return {{tree.nodes().begin(), tree.nodes().end()},
             {tree.leaf_links().begin(), tree.leaf_links().end()},
@@ -47,19 +47,19 @@ Built cluster(E& executor, std::span<const gpu::Box> boxes)
 }
 
 /// The neutral tree with its leaves numbered from left to right, as ref/ wants them.
-ref::Tree with_leaves_in_order(const Built& built, std::span<const gpu::Box> boxes)
+ref::Tree with_leaves_in_order(const Built& built, std::span<const fast::Aabb> boxes)
 {
-    ref::Tree tree = neutral(built, boxes.empty() ? gpu::empty_box() : boxes[0]);
+    ref::Tree tree = neutral(built, boxes.empty() ? fast::empty_aabb() : boxes[0]);
     ref::Tree ordered = tree;
-    std::vector<std::uint32_t> waiting;
-    if (!tree.nodes.empty()) waiting.push_back(0);
+    std::vector<std::uint32_t> stack;
+    if (!tree.nodes.empty()) stack.push_back(0);
     std::uint32_t leaf = 0;
-    while (!waiting.empty() && leaf < tree.leaf_count()) { // a cycle would go on for ever
-        const std::uint32_t node = waiting.back();
-        waiting.pop_back();
+    while (!stack.empty() && leaf < tree.leaf_count()) { // a cycle would go on for ever
+        const std::uint32_t node = stack.back();
+        stack.pop_back();
         if (!tree.is_leaf(node)) {
-            waiting.push_back(tree.nodes.at(node).children[1]);
-            waiting.push_back(tree.nodes.at(node).children[0]);
+            stack.push_back(tree.nodes.at(node).children[1]);
+            stack.push_back(tree.nodes.at(node).children[0]);
             continue;
         }
         const std::uint32_t renamed = tree.internal_count() + leaf;
@@ -75,7 +75,7 @@ ref::Tree with_leaves_in_order(const Built& built, std::span<const gpu::Box> box
     return ordered;
 }
 
-Lines violations(const Built& built, std::span<const gpu::Box> boxes)
+Lines violations(const Built& built, std::span<const fast::Aabb> boxes)
 {
     return is_valid_tree(with_leaves_in_order(built, boxes), cuda_test::exactly(boxes));
 }
@@ -92,7 +92,7 @@ bool same(const Built& a, const Built& b)
 TEST(Hploc, IsAValidTreeForEveryKindAndSize)
 {
     Random random(1);
-    gpu::SerialExecutor serial;
+    fast::SerialExecutor serial;
     std::vector<std::size_t> sizes = {255, 256, 257, 258, 511, 512, 513, 514};
     for (std::size_t n = 0; n <= 70; ++n) sizes.push_back(n);
     for (int kind = 0; kind < trees_test::kinds; ++kind)
@@ -106,8 +106,8 @@ TEST(Hploc, IsAValidTreeForEveryKindAndSize)
 TEST(Hploc, IsTheSameByThreadsAndValidAtSizesAroundPowersOfTwo)
 {
     Random random(2);
-    gpu::SerialExecutor serial;
-    gpu::ThreadedExecutor threads(3, 1);
+    fast::SerialExecutor serial;
+    fast::ThreadedExecutor threads(3, 1);
     for (const std::size_t n : {70u, 1000u, 65535u, 65536u, 65537u}) {
         const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::duplicated, n, random));
         const Built built = cluster(threads, boxes);
@@ -122,7 +122,7 @@ RC_GTEST_PROP(HplocInRandomInterleavings, IsTheSame, ())
     const auto kind = static_cast<Kind>(*rc::gen::inRange(0, trees_test::kinds));
     const auto boxes =
         cuda_test::rounded(trees_test::boxes(kind, *rc::gen::inRange<std::size_t>(0, 60), random));
-    gpu::SerialExecutor serial;
+    fast::SerialExecutor serial;
     InterleavedExecutor interleaved(
         8, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(random.below(ready)); });
     RC_ASSERT(same(cluster(interleaved, boxes), cluster(serial, boxes)));
@@ -130,39 +130,39 @@ RC_GTEST_PROP(HplocInRandomInterleavings, IsTheSame, ())
 
 TEST(Hploc, SaysHowHighItIs) // boxes inside boxes: one more at every step
 {
-    gpu::HostMemory memory;
-    gpu::SerialExecutor serial;
+    fast::HostMemory memory;
+    fast::SerialExecutor serial;
     for (const int n : {1, 2, 40, 2000}) {
-        std::vector<gpu::Box> boxes;
+        std::vector<fast::Aabb> boxes;
         for (int i = 0; i < n; ++i) {
-            const gpu::Vec3 corner(std::ldexp(1 + static_cast<float>(i % 32) / 32, i / 32 - 31));
+            const fast::Vec3 corner(std::ldexp(1 + static_cast<float>(i % 32) / 32, i / 32 - 31));
             boxes.push_back({-corner, corner});
         }
         const auto count = static_cast<std::uint32_t>(n);
-        gpu::Lbvh<std::uint32_t> sorted(memory, serial, count);
+        fast::Lbvh<std::uint32_t> sorted(memory, serial, count);
         sorted.build(serial, boxes);
-        gpu::Hploc tree(memory, count);
+        fast::Hploc tree(memory, count);
         tree.build(serial, boxes, sorted);
         const int depth = ref::quality(with_leaves_in_order(cluster(serial, boxes), boxes)).depth;
         EXPECT_EQ(tree.height(), static_cast<std::uint32_t>(depth)) << n;
         if (n == 2000) {
-            EXPECT_GT(depth, gpu::deepest_tree);
+            EXPECT_GT(depth, fast::deepest_tree);
         }
     }
 }
 
 TEST(Hploc, EndsForBoxesThatAreNotLegal)
 {
-    gpu::SerialExecutor serial;
+    fast::SerialExecutor serial;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float largest = std::numeric_limits<float>::max();
     Random random(3);
-    std::vector<gpu::Box> boxes;
+    std::vector<fast::Aabb> boxes;
     for (int i = 0; i < 100; ++i) {
-        const gpu::Vec3 at(random.in_cube());
+        const fast::Vec3 at(random.in_cube());
         boxes.push_back({at, at});
-        if (i % 3 == 0) boxes.push_back({gpu::Vec3(nan), gpu::Vec3(nan)});
-        if (i % 7 == 0) boxes.push_back({gpu::Vec3(-largest, 0, 0), gpu::Vec3(largest, 0, 0)});
+        if (i % 3 == 0) boxes.push_back({fast::Vec3(nan), fast::Vec3(nan)});
+        if (i % 7 == 0) boxes.push_back({fast::Vec3(-largest, 0, 0), fast::Vec3(largest, 0, 0)});
     }
     EXPECT_EQ(cluster(serial, boxes).nodes.size(), boxes.size() - 1);
 }
@@ -170,12 +170,12 @@ TEST(Hploc, EndsForBoxesThatAreNotLegal)
 TEST_F(HplocOnDevice, IsTheSame)
 {
     Random random(5);
-    gpu::SerialExecutor serial;
+    fast::SerialExecutor serial;
     for (const std::size_t n : {1u, 2u, 300u, 20000u}) {
         const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::duplicated, n, random));
-        gpu::DeviceLbvh tree(static_cast<std::uint32_t>(n), 63);
+        fast::DeviceLbvh tree(static_cast<std::uint32_t>(n), 63);
         tree.build(boxes);
-        const gpu::BuiltTree built = tree.download_clustered();
+        const fast::BuiltTree built = tree.download_clustered();
         EXPECT_TRUE(same({built.nodes, built.leaf_links, {}, {}}, cluster(serial, boxes))) << n;
     }
 }
@@ -183,23 +183,23 @@ TEST_F(HplocOnDevice, IsTheSame)
 TEST(SahCost, IsTheReferences)
 {
     Random random(6);
-    gpu::SerialExecutor serial;
+    fast::SerialExecutor serial;
     for (const std::size_t n : {1u, 2u, 300u}) {
         const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::uniform, n, random));
         const Built built = cluster(serial, boxes);
         // Sums and quotients of floats against those of doubles: two products, two sums, and one
         // quotient.
         const double expected = ref::quality(with_leaves_in_order(built, boxes)).sah_cost;
-        EXPECT_NEAR(gpu::sah_cost(built.nodes), expected, 16 * 0x1p-24 * expected) << n;
+        EXPECT_NEAR(fast::sah_cost(built.nodes), expected, 16 * 0x1p-24 * expected) << n;
     }
 }
 
 /// SAH cost, of this tree and of the full sweep's.
-double ratio_to_sweep(const std::vector<gpu::Triangle>& triangles)
+double ratio_to_sweep(const std::vector<fast::Triangle>& triangles)
 {
-    gpu::SerialExecutor serial;
-    std::vector<gpu::Box> boxes(triangles.size());
-    serial(static_cast<std::uint32_t>(boxes.size()), gpu::BoundTriangles{triangles, boxes});
+    fast::SerialExecutor serial;
+    std::vector<fast::Aabb> boxes(triangles.size());
+    serial(static_cast<std::uint32_t>(boxes.size()), fast::BoundTriangles{triangles, boxes});
     const ref::Tree tree = with_leaves_in_order(cluster(serial, boxes), boxes);
     const ref::Tree sweep = ref::build(cuda_test::exactly(boxes), ref::Builder::sah);
     return ref::quality(tree).sah_cost / ref::quality(sweep).sah_cost;
@@ -210,10 +210,11 @@ TEST(Hploc, CostsAtMostATenthMoreThanTheSweep) // the goal set for it, and not a
     EXPECT_LE(ratio_to_sweep(cuda_test::triangles_of(trees_test::icosphere(5, 1))), 1.10);
     EXPECT_LE(ratio_to_sweep(cuda_test::triangles_of(trees_test::tessellated_box(30, 2))), 1.10);
     Random random(4);
-    std::vector<gpu::Triangle> soup(5000);
-    for (gpu::Triangle& triangle : soup) {
+    std::vector<fast::Triangle> soup(5000);
+    for (fast::Triangle& triangle : soup) {
         const ref::Vec3 middle = random.in_cube();
-        for (gpu::Vec3& vertex : triangle.vertices) vertex = gpu::Vec3(middle + 0.05 * random.in_cube());
+        for (fast::Vec3& vertex : triangle.vertices)
+            vertex = fast::Vec3(middle + 0.05 * random.in_cube());
     }
     EXPECT_LE(ratio_to_sweep(soup), 1.10);
 }

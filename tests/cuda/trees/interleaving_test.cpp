@@ -22,16 +22,16 @@ using Words = std::array<std::uint32_t, 16>; // of a node
 
 /// A tree that was built by the serial executor, and its nodes with all boxes spoilt.
 struct Unfitted {
-    gpu::HostMemory memory;
-    std::vector<gpu::Box> boxes;
-    gpu::Lbvh<std::uint32_t> tree;
-    std::vector<gpu::Node> nodes;
+    fast::HostMemory memory;
+    std::vector<fast::Aabb> boxes;
+    fast::Lbvh<std::uint32_t> tree;
+    std::vector<fast::Node> nodes;
 
-    explicit Unfitted(std::vector<gpu::Box> these)
+    explicit Unfitted(std::vector<fast::Aabb> these)
         : boxes(std::move(these)),
-          tree(memory, gpu::SerialExecutor{}, static_cast<std::uint32_t>(boxes.size()))
+          tree(memory, fast::SerialExecutor{}, static_cast<std::uint32_t>(boxes.size()))
     {
-        gpu::SerialExecutor serial;
+        fast::SerialExecutor serial;
         tree.build(serial, boxes);
     }
     /// Fits the boxes on `executor`; whether all are as the serial executor made them.
@@ -39,9 +39,10 @@ struct Unfitted {
     bool refits(InterleavedExecutor& executor)
     {
         nodes.assign(tree.nodes().begin(), tree.nodes().end());
-        for (gpu::Node& node : nodes) node.bounds[0] = node.bounds[1] = {gpu::Vec3(77), gpu::Vec3(-77)};
+        for (fast::Node& node : nodes)
+            node.bounds[0] = node.bounds[1] = {fast::Vec3(77), fast::Vec3(-77)};
         executor(tree.primitive_count(),
-                 gpu::RefitBounds<arrive_at>{boxes, tree.primitives(), tree.leaf_links(), nodes});
+                 fast::RefitBounds<arrive_at>{boxes, tree.primitives(), tree.leaf_links(), nodes});
         for (std::size_t i = 0; i < nodes.size(); ++i)
             if (std::bit_cast<Words>(nodes[i]) != std::bit_cast<Words>(tree.nodes()[i])) return false;
         return true;
@@ -49,12 +50,12 @@ struct Unfitted {
 };
 
 /// Boxes whose tree is as balanced as can be, or a chain.
-std::vector<gpu::Box> in_a_row(std::uint32_t n, bool chain)
+std::vector<fast::Aabb> in_a_row(std::uint32_t n, bool chain)
 {
-    std::vector<gpu::Box> boxes;
+    std::vector<fast::Aabb> boxes;
     for (std::uint32_t i = 0; i < n; ++i) {
         const auto at = chain ? std::ldexp(1.0f, static_cast<int>(i)) : static_cast<float>(i);
-        boxes.push_back({gpu::Vec3(at), gpu::Vec3(at + 0.5f)});
+        boxes.push_back({fast::Vec3(at), fast::Vec3(at + 0.5f)});
     }
     return boxes;
 }
@@ -69,7 +70,7 @@ TEST(RefitInEveryInterleaving, GivesTheSameBoxes)
             InterleavedExecutor executor(n, std::ref(choices));
             int rounds = 0;
             do {
-                ASSERT_TRUE(unfitted.refits<gpu::arrive>(executor)) << n << " leaves, round " << rounds;
+                ASSERT_TRUE(unfitted.refits<fast::arrive>(executor)) << n << " leaves, round " << rounds;
                 ++rounds;
             } while (choices.next_round());
             RecordProperty("interleavings_of_" + std::to_string(n) + (chain ? "_in_a_chain" : ""),
@@ -115,7 +116,7 @@ RC_GTEST_PROP(RefitInRandomInterleavings, GivesTheSameBoxes, ())
 {
     const std::size_t n = *rc::gen::inRange<std::size_t>(1, 200);
     const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-    RC_ASSERT(refits_by_chance<gpu::arrive>(n, seed));
+    RC_ASSERT(refits_by_chance<fast::arrive>(n, seed));
 }
 
 TEST(RefitInRandomInterleavings, FindsATornCounterEveryTime)

@@ -31,13 +31,13 @@ using trees_test::Random;
 
 using Lines = std::vector<std::string>;
 
-gpu::Box first_or_empty(std::span<const gpu::Box> boxes)
+fast::Aabb first_or_empty(std::span<const fast::Aabb> boxes)
 {
-    return boxes.empty() ? gpu::empty_box() : boxes[0];
+    return boxes.empty() ? fast::empty_aabb() : boxes[0];
 }
 
 /// What the reference makes of these codes and boxes.
-ref::Tree reference_tree(const Built& built, std::span<const gpu::Box> boxes)
+ref::Tree reference_tree(const Built& built, std::span<const fast::Aabb> boxes)
 {
     ref::Tree tree;
     if (boxes.empty()) return tree;
@@ -58,7 +58,7 @@ bool same_bits(const ref::Vec3& a, const ref::Vec3& b)
 }
 
 /// Everything that is wrong with a build over these boxes.
-Lines violations(const Built& built, std::span<const gpu::Box> boxes, int code_bits)
+Lines violations(const Built& built, std::span<const fast::Aabb> boxes, int code_bits)
 {
     const ref::Tree tree = neutral(built, first_or_empty(boxes));
     Lines found = is_valid_tree(tree, cuda_test::exactly(boxes));
@@ -70,7 +70,7 @@ Lines violations(const Built& built, std::span<const gpu::Box> boxes, int code_b
     }
     if (!built.codes.empty() && built.codes.back() >> code_bits != 0)
         found.emplace_back("codes too long");
-    for (const gpu::Node& node : built.nodes)
+    for (const fast::Node& node : built.nodes)
         if (node.arrivals != 0) found.emplace_back("a node is not ready for the next refit");
     const ref::Tree expected = reference_tree(built, boxes);
     if (expected.nodes != tree.nodes) found.emplace_back("not the reference's nodes");
@@ -82,7 +82,7 @@ Lines violations(const Built& built, std::span<const gpu::Box> boxes, int code_b
     return found;
 }
 
-bool operator==(const gpu::Node& a, const gpu::Node& b)
+bool operator==(const fast::Node& a, const fast::Node& b)
 {
     static_assert(std::has_unique_object_representations_v<std::array<std::uint32_t, 16>>);
     using Words = std::array<std::uint32_t, 16>;
@@ -168,7 +168,7 @@ TEST_P(LbvhOn, TakesManyCoincidentPrimitives)
 {
     for (const std::size_t n : {3u, 512u, 65537u}) {
         if (!takes(n)) continue;
-        const std::vector<gpu::Box> boxes(n, gpu::Box{gpu::Vec3(1), gpu::Vec3(2)});
+        const std::vector<fast::Aabb> boxes(n, fast::Aabb{fast::Vec3(1), fast::Vec3(2)});
         const Built built = build_on(GetParam(), boxes);
         ASSERT_EQ(violations(built, boxes, GetParam().code_bits), Lines()) << n;
         EXPECT_EQ(ref::quality(neutral(built, boxes[0])).depth, static_cast<int>(std::bit_width(n - 1)));
@@ -187,7 +187,7 @@ TEST_P(LbvhOn, BuiltTwiceIsEqualAndEqualToTheSerialOne)
     }
 }
 
-std::string message(const Setup& setup, const std::vector<gpu::Box>& boxes)
+std::string message(const Setup& setup, const std::vector<fast::Aabb>& boxes)
 {
     try {
         build_on(setup, boxes);
@@ -198,7 +198,7 @@ std::string message(const Setup& setup, const std::vector<gpu::Box>& boxes)
 }
 
 /// What the reference says to the same boxes.
-std::string reference_message(const std::vector<gpu::Box>& boxes)
+std::string reference_message(const std::vector<fast::Aabb>& boxes)
 {
     try {
         ref::build(cuda_test::exactly(boxes), ref::Builder::morton30);
@@ -212,7 +212,7 @@ TEST_P(LbvhOn, RejectsWhatIsNoBoxInTheReferencesWords)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();
-    const std::vector<gpu::Box> good(300, gpu::Box{gpu::Vec3(0), gpu::Vec3(1)});
+    const std::vector<fast::Aabb> good(300, fast::Aabb{fast::Vec3(0), fast::Vec3(1)});
     EXPECT_EQ(message(GetParam(), good), "");
     for (int axis = 0; axis < 3; ++axis)
         for (const float bad : {nan, infinity, -infinity, 1.5f}) {
@@ -222,7 +222,7 @@ TEST_P(LbvhOn, RejectsWhatIsNoBoxInTheReferencesWords)
             EXPECT_EQ(message(GetParam(), boxes).substr(0, 15), "primitive 257: ") << bad;
             EXPECT_EQ(message(GetParam(), boxes), reference_message(boxes)) << bad;
         }
-    EXPECT_EQ(message(GetParam(), {gpu::empty_box()}), "primitive 0: its box is empty");
+    EXPECT_EQ(message(GetParam(), {fast::empty_aabb()}), "primitive 0: its box is empty");
 }
 
 // ---- by kernels alone ------------------------------------------------------------------------------
@@ -234,9 +234,9 @@ RC_GTEST_PROP(LbvhRefit, AfterPrimitivesMoveGivesTheBoxesOfTheNewPlaces, ())
     const auto kind = static_cast<Kind>(*rc::gen::inRange(0, trees_test::kinds));
     const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::uniform, n, random));
     const auto moved = cuda_test::rounded(trees_test::boxes(kind, n, random));
-    gpu::HostMemory memory;
-    gpu::SerialExecutor executor;
-    gpu::Lbvh<std::uint32_t> tree(memory, executor, static_cast<std::uint32_t>(n));
+    fast::HostMemory memory;
+    fast::SerialExecutor executor;
+    fast::Lbvh<std::uint32_t> tree(memory, executor, static_cast<std::uint32_t>(n));
     tree.build(executor, boxes);
     tree.refit(executor, moved);
     tree.refit(executor, moved); // leaves nothing behind that a second one would stumble over
@@ -247,13 +247,13 @@ RC_GTEST_PROP(LbvhRefit, AfterPrimitivesMoveGivesTheBoxesOfTheNewPlaces, ())
 TEST(LbvhMemory, IsReusedFromOneBuildToTheNextWithoutATrace)
 {
     Random random(6);
-    gpu::HostMemory memory;
-    gpu::SerialExecutor executor;
-    gpu::Lbvh<std::uint64_t> reused(memory, executor, 1000);
+    fast::HostMemory memory;
+    fast::SerialExecutor executor;
+    fast::Lbvh<std::uint64_t> reused(memory, executor, 1000);
     for (const std::size_t n : {1000u, 3u, 500u, 1u, 0u, 2u, 999u}) {
         const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::uniform, n, random));
         reused.build(executor, boxes);
-        gpu::Lbvh<std::uint64_t> fresh(memory, executor, static_cast<std::uint32_t>(n));
+        fast::Lbvh<std::uint64_t> fresh(memory, executor, static_cast<std::uint32_t>(n));
         fresh.build(executor, boxes);
         expect_same_bits(cuda_test::copy_of(reused), cuda_test::copy_of(fresh));
     }
@@ -261,13 +261,13 @@ TEST(LbvhMemory, IsReusedFromOneBuildToTheNextWithoutATrace)
 
 TEST(LbvhStages, AreReportedInOrder)
 {
-    gpu::HostMemory memory;
-    gpu::SerialExecutor executor;
-    gpu::Lbvh<std::uint32_t> tree(memory, executor, 2);
-    const std::vector<gpu::Box> boxes(2, gpu::Box{gpu::Vec3(0), gpu::Vec3(1)});
-    std::vector<gpu::Stage> stages;
-    tree.build(executor, boxes, [&](gpu::Stage stage) { stages.push_back(stage); });
-    using gpu::Stage;
+    fast::HostMemory memory;
+    fast::SerialExecutor executor;
+    fast::Lbvh<std::uint32_t> tree(memory, executor, 2);
+    const std::vector<fast::Aabb> boxes(2, fast::Aabb{fast::Vec3(0), fast::Vec3(1)});
+    std::vector<fast::Stage> stages;
+    tree.build(executor, boxes, [&](fast::Stage stage) { stages.push_back(stage); });
+    using fast::Stage;
     EXPECT_EQ(stages,
               (std::vector{Stage::bounds, Stage::codes, Stage::sort, Stage::tree, Stage::refit}));
 }

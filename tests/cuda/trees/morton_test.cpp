@@ -21,22 +21,22 @@ using trees_test::Random;
 
 /// The codes of boxes in their order, by the kernels alone.
 template <class Code>
-std::vector<std::uint64_t> codes_of(const std::vector<gpu::Box>& boxes)
+std::vector<std::uint64_t> codes_of(const std::vector<fast::Aabb>& boxes)
 {
-    const gpu::SerialExecutor executor;
+    const fast::SerialExecutor executor;
     const auto n = static_cast<std::uint32_t>(boxes.size());
-    std::vector<gpu::Survey> scratch(1);
-    std::vector<gpu::Survey> survey(1);
-    map_reduce(executor, n, gpu::SurveyBox{boxes}, gpu::UniteSurveys{}, gpu::empty_survey(),
-               std::span(scratch), std::span(survey));
+    std::vector<fast::CentroidBounds> scratch(1);
+    std::vector<fast::CentroidBounds> centroid_bounds(1);
+    map_reduce(executor, n, fast::BoundCentroid{boxes}, fast::UniteCentroidBounds{},
+               fast::empty_centroid_bounds(), std::span(scratch), std::span(centroid_bounds));
     std::vector<Code> codes(n);
     std::vector<std::uint32_t> primitives(n);
-    executor(n, gpu::ComputeMortonCodes<Code>{boxes, survey, codes, primitives});
+    executor(n, fast::ComputeMortonCodes<Code>{boxes, centroid_bounds, codes, primitives});
     for (std::uint32_t i = 0; i < n; ++i) EXPECT_EQ(primitives[i], i);
     return {codes.begin(), codes.end()};
 }
 
-std::vector<std::uint64_t> codes_of(const std::vector<gpu::Box>& boxes, int bits)
+std::vector<std::uint64_t> codes_of(const std::vector<fast::Aabb>& boxes, int bits)
 {
     return bits == 10 ? codes_of<std::uint32_t>(boxes) : codes_of<std::uint64_t>(boxes);
 }
@@ -44,15 +44,15 @@ std::vector<std::uint64_t> codes_of(const std::vector<gpu::Box>& boxes, int bits
 RC_GTEST_PROP(MortonCodeInFloat, SpreadsBitsAsTheReferenceDoes, ())
 {
     const auto x = *rc::gen::inRange<std::uint32_t>(0, 1u << 21);
-    RC_ASSERT(gpu::spread_bits(std::uint64_t{x}) == ref::spread_bits(x));
-    RC_ASSERT(gpu::spread_bits(x & 0x3ff) == ref::spread_bits(x & 0x3ff));
+    RC_ASSERT(fast::spread_bits(std::uint64_t{x}) == ref::spread_bits(x));
+    RC_ASSERT(fast::spread_bits(x & 0x3ff) == ref::spread_bits(x & 0x3ff));
 }
 
 TEST(MortonCodeInFloat, SpreadsEveryBitToItsPlace)
 {
     for (int bit = 0; bit < 21; ++bit)
-        EXPECT_EQ(gpu::spread_bits(std::uint64_t{1} << bit), std::uint64_t{1} << 3 * bit);
-    for (int bit = 0; bit < 10; ++bit) EXPECT_EQ(gpu::spread_bits(1u << bit), 1u << 3 * bit);
+        EXPECT_EQ(fast::spread_bits(std::uint64_t{1} << bit), std::uint64_t{1} << 3 * bit);
+    for (int bit = 0; bit < 10; ++bit) EXPECT_EQ(fast::spread_bits(1u << bit), 1u << 3 * bit);
 }
 
 /// How many cells float may be away from exact arithmetic along an axis: see the head of morton.h. The
@@ -107,9 +107,9 @@ TEST(MortonCodeInFloat, TheBoundIsOneCellForThirtyBitsOfAnOrdinaryScene) // or i
 constexpr float largest = std::numeric_limits<float>::max();
 constexpr float smallest = std::numeric_limits<float>::denorm_min();
 
-gpu::Box point(float x, float y, float z)
+fast::Aabb point(float x, float y, float z)
 {
-    return {gpu::Vec3(x, y, z), gpu::Vec3(x, y, z)};
+    return {fast::Vec3(x, y, z), fast::Vec3(x, y, z)};
 }
 
 TEST(MortonCodeInFloat, NoScaleOverflowsOrVanishes)
@@ -117,9 +117,9 @@ TEST(MortonCodeInFloat, NoScaleOverflowsOrVanishes)
     for (const float scale :
          {largest, 1e38f, 1e30f, 1.0f, 1e-30f, 1e-38f, 1024 * smallest, 4 * smallest})
         for (const int bits : {10, 21}) {
-            const std::vector<gpu::Box> boxes = {point(-scale, -scale, -scale),
-                                                 point(scale, scale, scale), point(0, 0, 0),
-                                                 point(-scale, scale, scale / 2)};
+            const std::vector<fast::Aabb> boxes = {point(-scale, -scale, -scale),
+                                                   point(scale, scale, scale), point(0, 0, 0),
+                                                   point(-scale, scale, scale / 2)};
             const std::uint32_t n = 1u << bits;
             const auto codes = codes_of(boxes, bits);
             EXPECT_EQ(ref::morton_decode(codes[0]), (ref::Cell{0, 0, 0})) << scale;
@@ -131,7 +131,7 @@ TEST(MortonCodeInFloat, NoScaleOverflowsOrVanishes)
 
 TEST(MortonCodeInFloat, AFlatAxisHasOneCell)
 {
-    const std::vector<gpu::Box> boxes = {point(0, 5, -1), point(1, 5, -1), point(0.5f, 5, -1)};
+    const std::vector<fast::Aabb> boxes = {point(0, 5, -1), point(1, 5, -1), point(0.5f, 5, -1)};
     const auto codes = codes_of(boxes, 10);
     EXPECT_EQ(ref::morton_decode(codes[0]), (ref::Cell{0, 0, 0}));
     EXPECT_EQ(ref::morton_decode(codes[1]), (ref::Cell{1023, 0, 0}));
@@ -141,11 +141,11 @@ TEST(MortonCodeInFloat, AFlatAxisHasOneCell)
 TEST(MortonCodeInFloat, SpansTheGridOverCentroidsOfLegalBoxesAlone)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    std::vector<gpu::Box> boxes = {point(0, 0, 0),
-                                   point(1, 1, 1),
-                                   {gpu::Vec3(-1000), gpu::Vec3(1001)},
-                                   point(nan, 7, 7),
-                                   {gpu::Vec3(9), gpu::Vec3(8)}};
+    std::vector<fast::Aabb> boxes = {point(0, 0, 0),
+                                     point(1, 1, 1),
+                                     {fast::Vec3(-1000), fast::Vec3(1001)},
+                                     point(nan, 7, 7),
+                                     {fast::Vec3(9), fast::Vec3(8)}};
     const auto codes = codes_of(boxes, 10);
     EXPECT_EQ(codes[0], 0u);
     EXPECT_EQ(codes[1], 0x3fff'ffffu);

@@ -17,7 +17,7 @@ inline std::uint32_t arrive_torn(std::uint32_t& counter)
 {
     const std::atomic_ref<std::uint32_t> shared(counter);
     const std::uint32_t before = shared.load(std::memory_order_acquire);
-    if (gpu::schedule_point != nullptr) gpu::schedule_point();
+    if (fast::schedule_point != nullptr) fast::schedule_point();
     shared.store(before + 1, std::memory_order_release);
     return before;
 }

@@ -17,17 +17,17 @@ template <std::uint32_t (*arrive_at)(std::uint32_t&)>
 void refit_often()
 {
     constexpr std::uint32_t n = 10;
-    std::vector<gpu::Box> boxes;
+    std::vector<fast::Aabb> boxes;
     for (std::uint32_t i = 0; i < n; ++i)
-        boxes.push_back({gpu::Vec3(static_cast<float>(i)), gpu::Vec3(static_cast<float>(i + 1))});
-    gpu::HostMemory memory;
-    gpu::SerialExecutor serial;
-    gpu::ThreadedExecutor threaded(4, 1);
-    gpu::Lbvh<std::uint32_t> tree(memory, serial, n);
+        boxes.push_back({fast::Vec3(static_cast<float>(i)), fast::Vec3(static_cast<float>(i + 1))});
+    fast::HostMemory memory;
+    fast::SerialExecutor serial;
+    fast::ThreadedExecutor threaded(4, 1);
+    fast::Lbvh<std::uint32_t> tree(memory, serial, n);
     tree.build(serial, boxes);
     for (int i = 0; i < 100; ++i)
-        threaded(n,
-                 gpu::RefitBounds<arrive_at>{boxes, tree.primitives(), tree.leaf_links(), tree.nodes()});
+        threaded(
+            n, fast::RefitBounds<arrive_at>{boxes, tree.primitives(), tree.leaf_links(), tree.nodes()});
 }
 
 } // namespace
@@ -36,7 +36,7 @@ int main(int argc, char** argv)
 {
     const std::string_view how = argc == 2 ? argv[1] : "";
     if (how == "right") {
-        refit_often<gpu::arrive>();
+        refit_often<fast::arrive>();
     } else if (how == "relaxed") {
         refit_often<cuda_test::arrive_relaxed>();
     } else {

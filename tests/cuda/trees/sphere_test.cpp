@@ -13,10 +13,10 @@
 namespace {
 
 using cuda_test::Verdict;
-using gpu::Hit;
-using gpu::Ray;
-using gpu::Sphere;
-using gpu::Vec3;
+using fast::Hit;
+using fast::Ray;
+using fast::Sphere;
+using fast::Vec3;
 using trees_test::Random;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -102,8 +102,8 @@ RC_GTEST_PROP(BoundSpheres, ContainTheSphereAndLittleMore, ())
     for (int i = 0; i < 100; ++i)
         spheres.push_back({Vec3(random.magnitude(-20, 20) * random.in_cube()),
                            static_cast<float>(random.magnitude(-20, 20))});
-    std::vector<gpu::Box> boxes(100);
-    gpu::SerialExecutor{}(100, gpu::BoundSpheres{spheres, boxes});
+    std::vector<fast::Aabb> boxes(100);
+    fast::SerialExecutor{}(100, fast::BoundSpheres{spheres, boxes});
     for (std::size_t i = 0; i < 100; ++i)
         for (int axis = 0; axis < 3; ++axis) {
             const double c = spheres[i].center[axis];

@@ -17,18 +17,18 @@
 
 namespace {
 
-using gpu::Hit;
-using gpu::Ray;
-using gpu::Sphere;
-using gpu::SurfaceTree;
-using gpu::Triangle;
-using gpu::Vec3;
+using fast::Hit;
+using fast::Ray;
+using fast::Sphere;
+using fast::SurfaceTree;
+using fast::Triangle;
+using fast::Vec3;
 using trees_test::Random;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-static_assert(std::is_trivially_copyable_v<gpu::Surfaces<false>>);
-static_assert(std::is_trivially_copyable_v<gpu::Surfaces<true>>);
+static_assert(std::is_trivially_copyable_v<fast::Surfaces<false>>);
+static_assert(std::is_trivially_copyable_v<fast::Surfaces<true>>);
 
 struct Shapes {
     std::vector<Triangle> triangles;
@@ -97,10 +97,10 @@ bool same_bits(const Hit& a, const Hit& b)
 }
 
 template <bool has_spheres>
-bool finds(const gpu::Surfaces<has_spheres>& surfaces, const Ray& ray, const Hit& expected)
+bool finds(const fast::Surfaces<has_spheres>& surfaces, const Ray& ray, const Hit& expected)
 {
-    return same_bits(closest_hit(surfaces, ray), expected) &&
-           any_hit(surfaces, ray) == (expected.primitive != gpu::no_primitive);
+    return same_bits(intersect(surfaces, ray), expected) &&
+           occluded(surfaces, ray) == (expected.primitive != fast::no_primitive);
 }
 
 RC_GTEST_PROP(Surfaces, AreHitWhereTheLinearSearchHitsThem, ())
@@ -108,9 +108,9 @@ RC_GTEST_PROP(Surfaces, AreHitWhereTheLinearSearchHitsThem, ())
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const Shapes shapes = some_shapes(*rc::gen::inRange<std::size_t>(0, 100),
                                       *rc::gen::inRange<std::size_t>(0, 20), random);
-    gpu::HostMemory memory;
-    gpu::SerialExecutor serial;
-    gpu::ThreadedExecutor threads(3, 1);
+    fast::HostMemory memory;
+    fast::SerialExecutor serial;
+    fast::ThreadedExecutor threads(3, 1);
     const SurfaceTree tree(memory, serial, shapes.triangles, shapes.spheres);
     const SurfaceTree same(memory, threads, shapes.triangles, shapes.spheres);
     RC_ASSERT(tree.has_spheres() == !shapes.spheres.empty());
@@ -127,8 +127,8 @@ RC_GTEST_PROP(Surfaces, AreHitWhereDoublePrecisionHitsThemWithinTheDerivedBounds
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const Shapes shapes = some_shapes(20, 10, random);
-    gpu::HostMemory memory;
-    gpu::SerialExecutor serial;
+    fast::HostMemory memory;
+    fast::SerialExecutor serial;
     const SurfaceTree tree(memory, serial, shapes.triangles, shapes.spheres);
     for (int i = 0; i < 50; ++i) {
         const Ray ray = some_ray(shapes, random);
@@ -137,10 +137,10 @@ RC_GTEST_PROP(Surfaces, AreHitWhereDoublePrecisionHitsThemWithinTheDerivedBounds
         for (const Triangle& triangle : shapes.triangles)
             verdicts.push_back(cuda_test::verdict(ray, triangle));
         for (const Sphere& sphere : shapes.spheres) verdicts.push_back(cuda_test::verdict(ray, sphere));
-        const Hit hit = closest_hit(tree.view<true>(), ray);
+        const Hit hit = intersect(tree.view<true>(), ray);
         for (const cuda_test::Verdict& verdict : verdicts)
             RC_ASSERT(!verdict.certain || hit.t <= verdict.highest);
-        if (hit.primitive == gpu::no_primitive) continue;
+        if (hit.primitive == fast::no_primitive) continue;
         RC_ASSERT(verdicts[hit.primitive].possible);
         RC_ASSERT(verdicts[hit.primitive].lowest <= hit.t && hit.t <= verdicts[hit.primitive].highest);
     }
@@ -148,31 +148,31 @@ RC_GTEST_PROP(Surfaces, AreHitWhereDoublePrecisionHitsThemWithinTheDerivedBounds
 
 TEST(Surfaces, OneOrNoneNeedsNoTree)
 {
-    gpu::HostMemory memory;
-    gpu::SerialExecutor serial;
+    fast::HostMemory memory;
+    fast::SerialExecutor serial;
     const Ray ray{Vec3(0), infinity, Vec3(0, 0, 1)};
     const SurfaceTree none(memory, serial, {}, {});
-    EXPECT_EQ(closest_hit(none.view<true>(), ray).primitive, gpu::no_primitive);
-    EXPECT_FALSE(any_hit(none.view<false>(), ray));
+    EXPECT_EQ(intersect(none.view<true>(), ray).primitive, fast::no_primitive);
+    EXPECT_FALSE(occluded(none.view<false>(), ray));
     EXPECT_EQ(none.diagonal(), 0);
     const std::vector<Sphere> ball = {{Vec3(0, 0, 3), 1}};
     const SurfaceTree one(memory, serial, {}, ball);
-    EXPECT_EQ(closest_hit(one.view<true>(), ray).primitive, 0);
-    EXPECT_EQ(closest_hit(one.view<true>(), ray).t, 2);
-    EXPECT_TRUE(any_hit(one.view<true>(), ray));
-    EXPECT_FALSE(any_hit(one.view<true>(), {Vec3(0), 2, Vec3(0, 0, 1)}));
+    EXPECT_EQ(intersect(one.view<true>(), ray).primitive, 0);
+    EXPECT_EQ(intersect(one.view<true>(), ray).t, 2);
+    EXPECT_TRUE(occluded(one.view<true>(), ray));
+    EXPECT_FALSE(occluded(one.view<true>(), {Vec3(0), 2, Vec3(0, 0, 1)}));
     EXPECT_NEAR(one.diagonal(), std::sqrt(12.0), 1e-5);
 }
 
 TEST(Surfaces, ThatAreAskedByNoRayAnswerThatNothingIsHit)
 {
-    gpu::HostMemory memory;
-    gpu::SerialExecutor serial;
+    fast::HostMemory memory;
+    fast::SerialExecutor serial;
     const trees_test::Mesh mesh = trees_test::icosphere(2, 1);
     const SurfaceTree tree(memory, serial, cuda_test::triangles_of(mesh), {{{Vec3(0), 0.5f}}});
     const Vec3 inside(0.1f, 0.2f, 0.7f);
     const Vec3 up(0, 0, 1);
-    ASSERT_TRUE(any_hit(tree.view<true>(), {inside, infinity, up}));
+    ASSERT_TRUE(occluded(tree.view<true>(), {inside, infinity, up}));
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity})
         for (int axis = 0; axis < 3; ++axis) {
             Ray nowhere{inside, infinity, up};
@@ -180,16 +180,16 @@ TEST(Surfaces, ThatAreAskedByNoRayAnswerThatNothingIsHit)
             Ray aimless{inside, infinity, up};
             aimless.direction[axis] = bad;
             for (const Ray& ray : {nowhere, aimless, Ray{inside, infinity, Vec3(0)}}) {
-                EXPECT_EQ(closest_hit(tree.view<true>(), ray).primitive, gpu::no_primitive);
-                EXPECT_FALSE(any_hit(tree.view<true>(), ray));
+                EXPECT_EQ(intersect(tree.view<true>(), ray).primitive, fast::no_primitive);
+                EXPECT_FALSE(occluded(tree.view<true>(), ray));
             }
         }
 }
 
 std::string complaint(const Shapes& shapes)
 {
-    gpu::HostMemory memory;
-    gpu::SerialExecutor serial;
+    fast::HostMemory memory;
+    fast::SerialExecutor serial;
     try {
         const SurfaceTree tree(memory, serial, shapes.triangles, shapes.spheres);
     } catch (const std::invalid_argument& error) {
@@ -215,8 +215,8 @@ TEST(Surfaces, ThatAreNotFiniteAreRejectedByTheirNumber)
 // Refused before a byte of them is read: the numbers of primitives have 32 bits.
 TEST(Surfaces, ThatAreTooManyAreRefused)
 {
-    gpu::HostMemory memory;
-    gpu::SerialExecutor serial;
+    fast::HostMemory memory;
+    fast::SerialExecutor serial;
     const Triangle triangle{{Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)}};
     const Sphere sphere{Vec3(0), 1};
     const auto refusal = [&](std::size_t triangles, std::size_t spheres) -> std::string {
@@ -230,7 +230,7 @@ TEST(Surfaces, ThatAreTooManyAreRefused)
     EXPECT_EQ(refusal(1, 1), "");
     const std::string most = "a tree may have 536870912 primitives, not ";
     EXPECT_EQ(refusal((std::size_t{1} << 32) + 1, 0), most + "4294967297 triangles and 0 spheres");
-    EXPECT_EQ(refusal(1, gpu::most_primitives), most + "1 triangles and 536870912 spheres");
+    EXPECT_EQ(refusal(1, fast::most_primitives), most + "1 triangles and 536870912 spheres");
     EXPECT_EQ(refusal(1, std::size_t{1} << 32), most + "1 triangles and 4294967296 spheres");
 }
 
@@ -243,9 +243,9 @@ TEST(SceneGeometry, FarFromTheOriginLosesNothingIfTheOriginIsNear)
     near_scene.spheres = {{ref::Vec3(0.25, 0.5, -1), 0.75, 0}};
     scenes::Scene far_scene = scene_of(moved(mesh, 1, far));
     far_scene.spheres = {{near_scene.spheres[0].center + far, 0.75, 0}};
-    const auto triangles = gpu::triangles_of(far_scene, {far});
-    const auto spheres = gpu::spheres_of(far_scene, {far});
-    const auto boxes = gpu::boxes_of(far_scene, {far});
+    const auto triangles = fast::triangles_of(far_scene, {far});
+    const auto spheres = fast::spheres_of(far_scene, {far});
+    const auto boxes = fast::boxes_of(far_scene, {far});
     ASSERT_EQ(triangles.size(), near_scene.triangles.size());
     ASSERT_EQ(boxes.size(), scenes::primitive_count(near_scene));
     for (std::size_t i = 0; i < triangles.size(); ++i)

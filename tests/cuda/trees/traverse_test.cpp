@@ -17,10 +17,10 @@ namespace {
 
 using cuda_test::linear_search;
 using cuda_test::Traceable;
-using gpu::Hit;
-using gpu::Ray;
-using gpu::Triangle;
-using gpu::Vec3;
+using fast::Hit;
+using fast::Ray;
+using fast::Triangle;
+using fast::Vec3;
 using trees_test::Random;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -48,7 +48,7 @@ TEST(IntersectTriangleInFloat, AgreesWithTheReferenceWithinItsRounding)
         const cuda_test::Verdict verdict = cuda_test::verdict(ray, triangle);
         const auto expected = ref::intersect_triangle(ref::ShearedRay(cuda_test::exactly(ray)), v);
         Hit hit{};
-        const bool is_hit = intersect_triangle(gpu::ShearedRay(ray), triangle, ray.t_max, hit);
+        const bool is_hit = intersect_triangle(fast::ShearedRay(ray), triangle, ray.t_max, hit);
         if (verdict.certain) {
             ASSERT_TRUE(is_hit && expected) << "ray " << i;
             EXPECT_TRUE(verdict.lowest <= hit.t && hit.t <= verdict.highest) << "ray " << i;
@@ -74,10 +74,10 @@ RC_GTEST_PROP(EdgeSignInFloat, IsExactHoweverCloseTheRayPasses, ())
     for (auto i = random.below(3); i > 0; --i)
         q.x = std::nextafter(q.x, random.below(2) == 0 ? infinity : -infinity);
     const long double exact = static_cast<long double>(p.x) * q.y - static_cast<long double>(p.y) * q.x;
-    const float sign = gpu::edge_sign(p, q);
+    const float sign = fast::edge_sign(p, q);
     RC_CLASSIFY(p.x * q.y == p.y * q.x, "products round to the same");
     RC_ASSERT((sign > 0) == (exact > 0) && (sign < 0) == (exact < 0));
-    RC_ASSERT(sign == -gpu::edge_sign(q, p));
+    RC_ASSERT(sign == -fast::edge_sign(q, p));
 }
 
 TEST(IntersectTriangleInFloat, CountsBothSidesEdgesAndCornersAndNothingEdgeOn)
@@ -88,15 +88,15 @@ TEST(IntersectTriangleInFloat, CountsBothSidesEdgesAndCornersAndNothingEdgeOn)
         for (const Vec3& at : {Vec3(0.25, 0.25, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0),
                                Vec3(0.5, 0, 0), Vec3(0, 0.5, 0), Vec3(0.5, 0.5, 0)}) {
             const Ray ray{at + Vec3(0, 0, from), infinity, Vec3(0, 0, -from)};
-            ASSERT_TRUE(intersect_triangle(gpu::ShearedRay(ray), triangle, infinity, hit));
+            ASSERT_TRUE(intersect_triangle(fast::ShearedRay(ray), triangle, infinity, hit));
             EXPECT_EQ(hit.t, 1.0f);
             EXPECT_FALSE(
-                intersect_triangle(gpu::ShearedRay(ray), triangle, 1, hit)); // the limit is strict
+                intersect_triangle(fast::ShearedRay(ray), triangle, 1, hit)); // the limit is strict
         }
     const Ray edge_on{Vec3(-1, 0.25, 0), infinity, Vec3(1, 0, 0)};
-    EXPECT_FALSE(intersect_triangle(gpu::ShearedRay(edge_on), triangle, infinity, hit));
+    EXPECT_FALSE(intersect_triangle(fast::ShearedRay(edge_on), triangle, infinity, hit));
     const Ray no_direction{Vec3(0.25, 0.25, 1), infinity, Vec3(0)};
-    EXPECT_FALSE(intersect_triangle(gpu::ShearedRay(no_direction), triangle, infinity, hit));
+    EXPECT_FALSE(intersect_triangle(fast::ShearedRay(no_direction), triangle, infinity, hit));
 }
 
 // ---- trees -----------------------------------------------------------------------------------------
@@ -111,10 +111,10 @@ bool same(const Hit& a, const Hit& b)
 bool agrees(const Traceable& tree, std::span<const Triangle> triangles, const Ray& ray)
 {
     const Hit expected = linear_search(triangles, ray);
-    const bool any = expected.primitive != gpu::no_primitive;
-    return same(closest_hit(tree.narrow(), ray), expected) &&
-           same(closest_hit(tree.wide(), ray), expected) && any_hit(tree.narrow(), ray) == any &&
-           any_hit(tree.wide(), ray) == any;
+    const bool any = expected.primitive != fast::no_primitive;
+    return same(intersect(tree.narrow(), ray), expected) &&
+           same(intersect(tree.wide(), ray), expected) && occluded(tree.narrow(), ray) == any &&
+           occluded(tree.wide(), ray) == any;
 }
 
 /// Triangles of all sizes on a lattice, which makes ties, flat boxes and doubles, or anywhere.
@@ -188,10 +188,10 @@ TEST(TraverseInFloat, ASingleTriangleAndNoneNeedNoNodes)
 {
     const std::vector<Triangle> one = {{{Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(0, 1, 1)}}};
     EXPECT_TRUE(agrees(Traceable(one), one, {Vec3(0.25, 0.25, 0), infinity, Vec3(0, 0, 1)}));
-    EXPECT_FALSE(any_hit(Traceable(one).wide(), {Vec3(0.25, 0.25, 0), infinity, Vec3(0, 0, -1)}));
+    EXPECT_FALSE(occluded(Traceable(one).wide(), {Vec3(0.25, 0.25, 0), infinity, Vec3(0, 0, -1)}));
     const std::vector<Triangle> none;
-    EXPECT_FALSE(any_hit(Traceable(none).narrow(), {Vec3(0), infinity, Vec3(0, 0, 1)}));
-    EXPECT_FALSE(any_hit(Traceable(none).wide(), {Vec3(0), infinity, Vec3(0, 0, 1)}));
+    EXPECT_FALSE(occluded(Traceable(none).narrow(), {Vec3(0), infinity, Vec3(0, 0, 1)}));
+    EXPECT_FALSE(occluded(Traceable(none).wide(), {Vec3(0), infinity, Vec3(0, 0, 1)}));
 }
 
 TEST(TraverseInFloat, EveryExecutorFindsTheSameHits)
@@ -205,14 +205,14 @@ TEST(TraverseInFloat, EveryExecutorFindsTheSameHits)
     std::vector<Hit> serial(500);
     std::vector<Hit> threaded(500);
     std::vector<std::uint8_t> any(500);
-    gpu::SerialExecutor serial_executor;
-    gpu::ThreadedExecutor threads(3, 1);
-    serial_executor(500, gpu::FindClosestHits<gpu::TreeView>{tree.narrow(), rays, serial});
-    threads(500, gpu::FindClosestHits<gpu::Surfaces<false>>{tree.wide(), rays, threaded});
-    threads(500, gpu::FindAnyHits<gpu::Surfaces<false>>{tree.wide(), rays, any});
+    fast::SerialExecutor serial_executor;
+    fast::ThreadedExecutor threads(3, 1);
+    serial_executor(500, fast::IntersectRays<fast::TreeView>{tree.narrow(), rays, serial});
+    threads(500, fast::IntersectRays<fast::Surfaces<false>>{tree.wide(), rays, threaded});
+    threads(500, fast::TestOcclusion<fast::Surfaces<false>>{tree.wide(), rays, any});
     for (std::size_t i = 0; i < 500; ++i) {
         EXPECT_TRUE(same(serial[i], threaded[i])) << i;
-        EXPECT_EQ(any[i] == 1, serial[i].primitive != gpu::no_primitive) << i;
+        EXPECT_EQ(any[i] == 1, serial[i].primitive != fast::no_primitive) << i;
     }
 }
 
@@ -251,7 +251,7 @@ TEST(ClosedMeshesInFloat, NoRayFromInsideEscapes)
                                        : i % 3 == 1 ? Vec3(mesh.vertices[a]) - origin
                                                     : Vec3(on_edge) - origin;
                 const Ray ray{origin, infinity, direction};
-                escaped += any_hit(tree.wide(), ray) && any_hit(tree.narrow(), ray) ? 0 : 1;
+                escaped += occluded(tree.wide(), ray) && occluded(tree.narrow(), ray) ? 0 : 1;
             }
             EXPECT_EQ(escaped, 0) << "mesh " << number << " scale " << placement.scale << " at "
                                   << placement.offset.x;

@@ -12,10 +12,10 @@
 
 namespace {
 
-using gpu::Ray;
-using gpu::Triangle;
-using gpu::TriangleGroup;
-using gpu::Vec3;
+using fast::Ray;
+using fast::Triangle;
+using fast::TriangleGroup;
+using fast::Vec3;
 using trees_test::Random;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -26,7 +26,7 @@ TriangleGroup group_of(const std::vector<Triangle>& triangles)
     for (int lane = 0; lane < 4; ++lane) {
         const auto i = static_cast<std::size_t>(lane);
         const bool there = i < triangles.size();
-        group.primitives[i] = there ? static_cast<std::uint32_t>(lane) : gpu::no_primitive;
+        group.primitives[i] = there ? static_cast<std::uint32_t>(lane) : fast::no_primitive;
         for (int k = 0; k < 3; ++k)
             for (int axis = 0; axis < 3; ++axis)
                 group.vertices[k][axis][lane] =
@@ -65,11 +65,11 @@ RC_GTEST_PROP(TriangleGroup, PassesOverNothingThatIsHit, ())
             for (Vec3& vertex : triangle.vertices) vertex = Vec3(scale * (where + random.in_cube()));
         const TriangleGroup group = group_of(triangles);
         for (int k = 0; k < 8; ++k) {
-            const gpu::ShearedRay ray(barely_leaving(triangles[0], random));
+            const fast::ShearedRay ray(barely_leaving(triangles[0], random));
             const std::uint32_t candidates = may_hit(ray, group);
             RC_ASSERT(candidates < 1u << triangles.size()); // NaN is never looked at
             for (std::size_t lane = 0; lane < triangles.size(); ++lane) {
-                gpu::Hit hit{};
+                fast::Hit hit{};
                 if (intersect_triangle(ray, triangles[lane], infinity, hit))
                     RC_ASSERT((candidates >> lane & 1) == 1u);
             }
@@ -87,9 +87,9 @@ TEST(TriangleGroup, LeavesOutWhatIsClearlyBehindOrBeside)
         for (Triangle& triangle : triangles)
             for (Vec3& vertex : triangle.vertices) vertex = Vec3(random.in_cube());
         const TriangleGroup group = group_of(triangles);
-        const gpu::ShearedRay ray({Vec3(random.in_cube()), infinity, Vec3(random.direction())});
+        const fast::ShearedRay ray({Vec3(random.in_cube()), infinity, Vec3(random.direction())});
         for (std::uint32_t bits = may_hit(ray, group); bits != 0; bits &= bits - 1) ++candidates;
-        intersect_group(ray, group, infinity, [&](const gpu::Hit& /*hit*/) { ++hits; });
+        intersect_group(ray, group, infinity, [&](const fast::Hit& /*hit*/) { ++hits; });
     }
     EXPECT_GT(hits, 500);
     EXPECT_LE(candidates, hits + 5); // 16 u is little beside a random distance

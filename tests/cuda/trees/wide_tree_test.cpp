@@ -15,13 +15,13 @@
 
 namespace {
 
-using gpu::Box;
-using gpu::Node;
-using gpu::Triangle;
-using gpu::TriangleGroup;
-using gpu::Vec3;
-using gpu::WideNode;
-using gpu::WideTree;
+using fast::Aabb;
+using fast::Node;
+using fast::Triangle;
+using fast::TriangleGroup;
+using fast::Vec3;
+using fast::WideNode;
+using fast::WideTree;
 using trees_test::Random;
 
 /// A narrow tree over random triangles, some of them coincident.
@@ -36,19 +36,19 @@ struct Narrow {
             triangles.push_back(i > 0 && random.below(8) == 0 ? triangles[random.below(i)] : triangle);
         }
         boxes.resize(n);
-        executor(static_cast<std::uint32_t>(n), gpu::BoundTriangles{triangles, boxes});
+        executor(static_cast<std::uint32_t>(n), fast::BoundTriangles{triangles, boxes});
         tree.build(executor, boxes);
     }
-    template <gpu::Executor E>
+    template <fast::Executor E>
     WideTree widened(E& by)
     {
         return {memory, by, std::as_const(tree).nodes(), tree.primitives(), triangles};
     }
-    gpu::HostMemory memory;
-    gpu::SerialExecutor executor;
+    fast::HostMemory memory;
+    fast::SerialExecutor executor;
     std::vector<Triangle> triangles;
-    std::vector<Box> boxes;
-    gpu::Lbvh<std::uint64_t> tree;
+    std::vector<Aabb> boxes;
+    fast::Lbvh<std::uint64_t> tree;
 };
 
 /// Counts how often each primitive is in a group, and how many nodes and groups there are.
@@ -59,17 +59,17 @@ struct Census {
 };
 
 /// The box around all below `child`, of which every part must be as the wide nodes say.
-Box check_below(const gpu::WideTreeView& tree, const Narrow& narrow, std::uint32_t child, Census& census,
-                std::uint32_t& primitives)
+Aabb check_below(const fast::WideTreeView& tree, const Narrow& narrow, std::uint32_t child,
+                 Census& census, std::uint32_t& primitives)
 {
-    Box all = gpu::empty_box();
-    if (gpu::is_leaf(child)) {
+    Aabb all = fast::empty_aabb();
+    if (fast::is_leaf(child)) {
         ++census.groups;
-        const TriangleGroup& group = tree.groups[child & ~gpu::leaf_bit];
+        const TriangleGroup& group = tree.groups[child & ~fast::leaf_bit];
         for (int lane = 0; lane < 4; ++lane) {
             const std::uint32_t primitive = group.primitives[lane];
             const Triangle triangle = group.triangle(lane);
-            if (primitive == gpu::no_primitive) {
+            if (primitive == fast::no_primitive) {
                 RC_ASSERT(triangle.vertices[0].x != triangle.vertices[0].x); // NaN: never hit
                 continue;
             }
@@ -84,18 +84,18 @@ Box check_below(const gpu::WideTreeView& tree, const Narrow& narrow, std::uint32
     const WideNode& node = tree.nodes[child];
     std::uint32_t below = 0;
     for (int c = 0; c < 4; ++c) {
-        if (node.children[c] == gpu::no_node) {
+        if (node.children[c] == fast::no_node) {
             RC_ASSERT(node.planes[0][c] > node.planes[3][c]); // no ray enters
             continue;
         }
-        const Box box = check_below(tree, narrow, node.children[c], census, below);
+        const Aabb box = check_below(tree, narrow, node.children[c], census, below);
         for (int axis = 0; axis < 3; ++axis) {
             RC_ASSERT(node.planes[axis][c] == box.lower[axis]);
             RC_ASSERT(node.planes[3 + axis][c] == box.upper[axis]);
         }
         all = unite(all, box);
     }
-    RC_ASSERT(below > gpu::most_in_group); // or it would be a group
+    RC_ASSERT(below > fast::most_in_group); // or it would be a group
     primitives += below;
     return all;
 }
@@ -125,7 +125,7 @@ RC_GTEST_PROP(WideTree, HoldsEveryPrimitiveOnceInBoxesThatFit, ())
     if (!tree.view().nodes.empty())
         check_below(tree.view(), narrow, 0, census, primitives);
     else if (!tree.view().groups.empty())
-        check_below(tree.view(), narrow, gpu::leaf_bit, census, primitives);
+        check_below(tree.view(), narrow, fast::leaf_bit, census, primitives);
     RC_ASSERT(primitives == narrow.triangles.size());
     for (const int times : census.seen) RC_ASSERT(times == 1);
     RC_ASSERT(census.nodes == tree.view().nodes.size()); // and none that is not needed
@@ -137,7 +137,7 @@ RC_GTEST_PROP(WideTree, IsTheSameForEveryExecutor, ())
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     Narrow narrow(*rc::gen::inRange<std::size_t>(0, 100), random);
     const WideTree serial = narrow.widened(narrow.executor);
-    gpu::ThreadedExecutor threads(3, 1);
+    fast::ThreadedExecutor threads(3, 1);
     const WideTree threaded = narrow.widened(threads);
     std::mt19937_64 schedule(random.bits());
     cuda_test::InterleavedExecutor adversary(
@@ -151,27 +151,27 @@ RC_GTEST_PROP(WideTree, IsTheSameForEveryExecutor, ())
 
 /// Appends a balanced tree over `count` new leaves with equal boxes; returns its name from above.
 std::uint32_t balanced(std::vector<Node>& nodes, std::uint32_t& leaves, std::uint32_t count,
-                       const Box& box)
+                       const Aabb& box)
 {
-    if (count == 1) return leaves++ | gpu::leaf_bit;
+    if (count == 1) return leaves++ | fast::leaf_bit;
     const auto at = static_cast<std::uint32_t>(nodes.size());
-    nodes.push_back({{box, box}, {0, 0}, gpu::no_node, 0});
+    nodes.push_back({{box, box}, {0, 0}, fast::no_node, 0});
     nodes[at].children[0] = balanced(nodes, leaves, count / 2, box);
     nodes[at].children[1] = balanced(nodes, leaves, count - count / 2, box);
     return at;
 }
 
 // The worst that can happen to the stack: at every level of the deepest tree the larger child is opened
-// twice, and the ray goes down into the smaller one, with three others waiting.
+// twice, and the ray goes down into the smaller one, with three others stack.
 TEST(WideTree, TheDeepestOneFitsTheStack)
 {
     std::vector<Node> nodes;
     std::uint32_t leaves = 0;
-    const Box larger{Vec3(-2), Vec3(2)};
-    const Box smaller{Vec3(-1), Vec3(1)};
-    for (int level = 0; level < gpu::deepest_tree; ++level) {
+    const Aabb larger{Vec3(-2), Vec3(2)};
+    const Aabb smaller{Vec3(-1), Vec3(1)};
+    for (int level = 0; level < fast::deepest_tree; ++level) {
         const auto at = static_cast<std::uint32_t>(nodes.size());
-        nodes.push_back({{smaller, larger}, {0, 0}, gpu::no_node, 0});
+        nodes.push_back({{smaller, larger}, {0, 0}, fast::no_node, 0});
         nodes[at].children[1] = balanced(nodes, leaves, 16, larger);
         nodes[at].children[0] = static_cast<std::uint32_t>(nodes.size());
     }
@@ -182,15 +182,15 @@ TEST(WideTree, TheDeepestOneFitsTheStack)
     std::vector<Triangle> triangles(leaves);
     for (Triangle& triangle : triangles)
         for (Vec3& vertex : triangle.vertices) vertex = Vec3(random.in_cube());
-    gpu::HostMemory memory;
-    gpu::SerialExecutor executor;
+    fast::HostMemory memory;
+    fast::SerialExecutor executor;
     const WideTree tree(memory, executor, nodes, primitives, triangles);
     for (int i = 0; i < 100; ++i) {
-        const gpu::Ray ray{Vec3(0.01 * random.in_cube()), std::numeric_limits<float>::infinity(),
-                           Vec3(random.direction())};
-        const gpu::Surfaces<false> surfaces{tree.view(), {}, leaves};
-        const gpu::Hit hit = closest_hit(surfaces, ray);
-        const gpu::Hit expected = cuda_test::linear_search(triangles, ray);
+        const fast::Ray ray{Vec3(0.01 * random.in_cube()), std::numeric_limits<float>::infinity(),
+                            Vec3(random.direction())};
+        const fast::Surfaces<false> surfaces{tree.view(), {}, leaves};
+        const fast::Hit hit = intersect(surfaces, ray);
+        const fast::Hit expected = cuda_test::linear_search(triangles, ray);
         EXPECT_EQ(hit.primitive, expected.primitive);
         EXPECT_EQ(hit.t, expected.t);
     }

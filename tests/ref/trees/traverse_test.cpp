@@ -260,13 +260,13 @@ TEST(Traverse, EntersTheNearerChildFirstAndNoBoxBeyondAHit)
     for (const Builder builder : builders) {
         const Geometry geometry(scene, builder);
         for (const double from : {0.0, 3.0}) {
-            ref::Work work;
-            const auto hit = intersect(geometry, {Vec3(0, 0, from), Vec3(0, 0, 1.5 - from)}, &work);
+            ref::TraversalCounts counts;
+            const auto hit = intersect(geometry, {Vec3(0, 0, from), Vec3(0, 0, 1.5 - from)}, &counts);
             ASSERT_TRUE(hit);
             EXPECT_EQ(hit->primitive, from < 1 ? 0u : 1u);
             if (geometry.tree().leaf_count() == 1) continue; // both in one leaf: no choice
-            EXPECT_EQ(work.nodes, 2u);                       // the root and the nearer leaf
-            EXPECT_EQ(work.primitives, 1u);
+            EXPECT_EQ(counts.nodes, 2u);                     // the root and the nearer leaf
+            EXPECT_EQ(counts.primitives, 1u);
         }
     }
 }
@@ -290,8 +290,8 @@ TEST(Traverse,
     Random random(3);
     for (const Builder builder : builders) {
         const Geometry geometry(scene, builder);
-        ref::Work closest;
-        ref::Work any;
+        ref::TraversalCounts closest;
+        ref::TraversalCounts any;
         const std::uint64_t rays = 1000;
         for (std::uint64_t i = 0; i < rays; ++i) {
             const Ray ray{3.0 * random.direction(), -random.direction()};
@@ -307,7 +307,8 @@ TEST(Traverse,
 
 TEST(Traverse, PrimitivesOfOneCodeCostNoMoreThanTheyMust)
 {
-    // Pairs that share every bit of their codes: a builder that puts them into chains shows in the work.
+    // Pairs that share every bit of their codes: a builder that puts them into chains shows in the
+    // counts.
     scenes::Scene scene = scene_of(trees_test::icosphere(4, 1));
     const std::vector<scenes::Triangle> once = scene.triangles;
     for (int copy = 1; copy < 8; ++copy)
@@ -317,8 +318,8 @@ TEST(Traverse, PrimitivesOfOneCodeCostNoMoreThanTheyMust)
     for (const Builder builder : {Builder::morton30, Builder::morton63}) {
         const Geometry one(single, builder);
         const Geometry eight(scene, builder);
-        ref::Work work_one;
-        ref::Work work_eight;
+        ref::TraversalCounts work_one;
+        ref::TraversalCounts work_eight;
         for (int i = 0; i < 1000; ++i) {
             const Ray ray{3.0 * random.direction(), -random.direction()};
             intersect(one, ray, &work_one);

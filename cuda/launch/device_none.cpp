@@ -1,0 +1,17 @@
+// What stands in for device.cu where there is no nvcc.
+
+#include "cuda/launch/device.h"
+
+namespace fast {
+
+Device find_device()
+{
+    return {false, "built without nvcc"};
+}
+
+std::string describe_device()
+{
+    return find_device().description;
+}
+
+} // namespace fast

@@ -1,0 +1,16 @@
+// What stands for device_renderer.cu where there is no nvcc.
+
+#include "cuda/launch/device.h"
+#include "cuda/launch/renderer.h"
+
+#include <stdexcept>
+
+namespace fast {
+
+std::unique_ptr<Renderer> device_renderer(const scenes::Scene& /*scene*/, int /*width*/, int /*height*/,
+                                          const images::RenderOptions& /*options*/, Needs /*at_least*/)
+{
+    throw std::runtime_error(find_device().description);
+}
+
+} // namespace fast

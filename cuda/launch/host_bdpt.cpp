@@ -1,0 +1,11 @@
+// The kernels of Integrator::bdpt, for the threads of the host.
+
+#include "cuda/launch/launch_samples.h"
+#include "cuda/parallel/threaded_executor.h"
+
+namespace fast {
+
+template void launch_samples<Integrator::bdpt>(ThreadedExecutor&, Needs, const SceneInMemory&,
+                                               const SampleJob&);
+
+} // namespace fast

@@ -1,0 +1,278 @@
+#include "cuda/scene/scene_arrays.h"
+
+#include "cuda/scene/contact_arrays.h"
+#include "cuda/transport/emitter_choice.h"
+#include "scenes/bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <stdexcept>
+
+namespace fast {
+
+namespace {
+
+Material material_of(const scenes::Material& source, bool roulette)
+{
+    Material result{};
+    double albedo = 0;
+    const auto largest = [](const scenes::Rgb& c) { return std::max({c.x, c.y, c.z}); };
+    if (const auto* lambertian = std::get_if<scenes::Lambertian>(&source)) {
+        result.kind = MaterialKind::lambertian;
+        result.color = Rgb(lambertian->albedo);
+        albedo = largest(lambertian->albedo);
+    } else if (const auto* mirror = std::get_if<scenes::Mirror>(&source)) {
+        result.kind = MaterialKind::mirror;
+        result.color = Rgb(mirror->reflectance);
+        albedo = largest(mirror->reflectance);
+    } else if (const auto* glass = std::get_if<scenes::Glass>(&source)) {
+        result.kind = MaterialKind::glass;
+        result.color = Rgb(glass->reflectance);
+        result.transmittance = Rgb(glass->transmittance);
+        result.ior = static_cast<float>(glass->ior);
+        albedo = std::max(largest(glass->reflectance), largest(glass->transmittance));
+    } else {
+        result.kind = MaterialKind::emission;
+        result.color = Rgb(std::get<scenes::Emission>(source).radiance);
+    }
+    // Below 1 even on a perfect mirror: every walk ends.
+    result.survival = roulette ? static_cast<float>(std::min(0.95, albedo)) : 1.0f;
+    return result;
+}
+
+double average(const scenes::Rgb& c)
+{
+    return (c.x + c.y + c.z) / 3.0;
+}
+
+/// Integral of cos^exponent over the cone, which ends at the horizon at the latest unless the lobe is
+/// constant.
+double spot_solid_angle(const scenes::SpotLight& spot)
+{
+    const double c = spot.exponent > 0.0 ? std::max(0.0, spot.cos_cutoff) : spot.cos_cutoff;
+    return 2.0 * std::numbers::pi * (1.0 - std::pow(c, spot.exponent + 1.0)) / (spot.exponent + 1.0);
+}
+
+/// 1 - cos of the half angle of the cone that a spot light's directions are drawn in.
+///
+/// Beyond cos^n < 2^-150 the intensity is 0 as a float. Where that lobe is less than a quarter of the
+/// cone, the cone ends with it: else few walks would begin in the lobe, and these in few directions, as
+/// the numbers u that choose them are multiples of 2^-24. A sum over these in place of the integral errs
+/// by half a step, n (1 - c) 2^-25 of the power; now n (1 - c) is at most about 4 * 104. For such a
+/// light the density is not that of the reference, and its light walks are other ones.
+double versine_cutoff(const scenes::SpotLight& spot)
+{
+    const double cone = 1.0 - spot.cos_cutoff;
+    if (!(spot.exponent > 0.0)) return cone;
+    const double lobe = -std::expm1(-150.0 * std::numbers::ln2 / spot.exponent);
+    return lobe < cone / 4.0 ? lobe : cone;
+}
+
+/// Throws std::invalid_argument for the spot light of that index if floats cannot hold it.
+void check_spot(const scenes::SpotLight& spot, std::size_t index)
+{
+    const auto refuse = [&](const char* format, double number, double limit) {
+        std::array<char, 160> what{};
+        std::snprintf(what.data(), what.size(), format, index + 1, number, limit);
+        throw std::invalid_argument(what.data());
+    };
+    const double half_angle = 2.0 * std::asin(std::sqrt((1.0 - spot.cos_cutoff) / 2.0));
+    const auto full_degrees = [](double half) { return half * 360.0 / std::numbers::pi; };
+    if (!(half_angle >= least_half_angle))
+        refuse("spot light %zu: a cone of %.3g degrees is too narrow for single precision, which holds "
+               "%.3g and more",
+               full_degrees(half_angle), full_degrees(least_half_angle));
+    if (!(spot.exponent <= most_exponent))
+        refuse("spot light %zu: an exponent of %.3g is too large for single precision, which holds up "
+               "to %.3g",
+               spot.exponent, most_exponent);
+}
+
+/// Collects emitters with their power, and gives them their probabilities in the end.
+class EmitterList {
+public:
+    explicit EmitterList(SceneArrays& arrays) : arrays_(arrays) {}
+
+    void add(EmitterKind kind, std::size_t index, double area, double power, const scenes::Rgb& emitted,
+             const Light& light = {})
+    {
+        arrays_.emitters.push_back(
+            {kind, static_cast<std::uint32_t>(index), static_cast<float>(area), 0.0f, Rgb(emitted)});
+        arrays_.lights.push_back(light);
+        powers_.push_back(power);
+    }
+    /// Such an emitter cannot be chosen; finish() throws if it would be missed.
+    void add_collapsed(EmitterKind kind, std::size_t index, double power)
+    {
+        add(kind, index, 0, 0, scenes::Rgb(0.0));
+        collapsed_power_ += power;
+        ++collapsed_;
+    }
+    /// The number of the emitter that comes next.
+    [[nodiscard]] std::uint32_t next() const { return static_cast<std::uint32_t>(powers_.size()); }
+    void finish()
+    {
+        double total = 0;
+        for (const double power : powers_) total += power;
+        // 2^-20 is far less than any picture shows.
+        if (collapsed_power_ > 0x1p-20 * total)
+            throw std::invalid_argument(
+                std::to_string(collapsed_) +
+                " emitting triangle(s) are too small or too thin for single precision, and " +
+                std::to_string(100 * collapsed_power_ / (total + collapsed_power_)) +
+                "% of the light comes from there");
+        arrays_.cumulative = summed_probabilities(powers_);
+        if (arrays_.cumulative.empty()) {
+            // Nothing can be chosen; but a sky over no surfaces, on which nothing of it falls, is seen.
+            for (Surface& surface : arrays_.surfaces) surface.emitter = no_emitter;
+            return;
+        }
+        for (std::size_t i = 0; i < powers_.size(); ++i)
+            arrays_.emitters[i].probability =
+                arrays_.cumulative[i] - (i > 0 ? arrays_.cumulative[i - 1] : 0.0f);
+    }
+
+private:
+    SceneArrays& arrays_;
+    std::vector<double> powers_;
+    double collapsed_power_ = 0;
+    std::size_t collapsed_ = 0;
+};
+
+/// In the order of the reference, so that the same number chooses the same emitter.
+void add_emitters(SceneArrays& arrays, const scenes::Scene& scene, double radius)
+{
+    EmitterList list(arrays);
+    // Intensities are measured by the square of a length.
+    const double square = arrays.place.scale * arrays.place.scale;
+    const auto emission = [&](std::uint32_t material) {
+        return std::get_if<scenes::Emission>(&scene.materials[material]);
+    };
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i)
+        if (const auto* emits = emission(scene.triangles[i].material)) {
+            const auto& v = scene.triangles[i].vertices;
+            const scenes::Vec3 e1 = arrays.place.scale * (v[1] - v[0]);
+            const scenes::Vec3 e2 = arrays.place.scale * (v[2] - v[0]);
+            const double area = glm::length(glm::cross(e1, e2)) / 2.0;
+            const double power = std::numbers::pi * area * average(emits->radiance);
+            arrays.surfaces[i].emitter = list.next();
+            if (has_area(scene.triangles[i], arrays.place))
+                list.add(EmitterKind::triangle, i, area, power, emits->radiance);
+            else
+                list.add_collapsed(EmitterKind::triangle, i, power);
+        }
+    for (std::size_t i = 0; i < scene.spheres.size(); ++i)
+        if (const auto* emits = emission(scene.spheres[i].material)) {
+            const std::size_t primitive = scene.triangles.size() + i;
+            const double radius_here = arrays.place.scale * scene.spheres[i].radius;
+            const double area = 4.0 * std::numbers::pi * radius_here * radius_here;
+            arrays.surfaces[primitive].emitter = list.next();
+            list.add(EmitterKind::sphere, primitive, area,
+                     std::numbers::pi * area * average(emits->radiance), emits->radiance);
+        }
+    for (std::size_t i = 0; i < scene.point_lights.size(); ++i) {
+        const auto& light = scene.point_lights[i];
+        list.add(EmitterKind::point, i, 0, square * 4.0 * std::numbers::pi * average(light.intensity),
+                 square * light.intensity, {arrays.place(light.position), Vec3(0.0f), 0, 0});
+    }
+    for (std::size_t i = 0; i < scene.spot_lights.size(); ++i) {
+        const auto& light = scene.spot_lights[i];
+        check_spot(light, i);
+        list.add(EmitterKind::spot, i, 0, square * spot_solid_angle(light) * average(light.intensity),
+                 square * light.intensity,
+                 {arrays.place(light.position), Vec3(light.direction),
+                  static_cast<float>(versine_cutoff(light)), static_cast<float>(light.exponent)});
+    }
+    // What comes from infinity counts as far as it falls on a sphere around the scene.
+    const double disc = std::numbers::pi * radius * radius;
+    for (std::size_t i = 0; i < scene.directional_lights.size(); ++i) {
+        const auto& light = scene.directional_lights[i];
+        list.add(EmitterKind::directional, i, 0, disc * average(light.irradiance), light.irradiance,
+                 {Vec3(0.0f), Vec3(light.direction), 0, 0});
+    }
+    arrays.has_environment = scene.environment.has_value();
+    if (scene.environment)
+        list.add(EmitterKind::environment, 0, 0,
+                 4.0 * std::numbers::pi * disc * average(*scene.environment), *scene.environment);
+    list.finish();
+}
+
+} // namespace
+
+Placement placement_of(const scenes::Scene& scene)
+{
+    Placement place;
+    if (const auto box = scenes::bounds(scene)) {
+        place.origin = box->min / 2.0 + box->max / 2.0;
+        const double diameter = glm::length(box->max - box->min);
+        int exponent = 1;
+        if (diameter > 0.0) std::frexp(diameter, &exponent); // diameter = f 2^exponent, 1/2 <= f < 1
+        place.scale = std::ldexp(1.0, 1 - exponent);
+    }
+    return place;
+}
+
+SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
+{
+    SceneArrays arrays;
+    arrays.place = placement_of(scene);
+    double radius = 0;
+    if (const auto box = scenes::bounds(scene))
+        radius = glm::length(box->max - box->min) * arrays.place.scale / 2.0;
+    arrays.radius = radius > 0.0 ? static_cast<float>(radius) : 1.0f; // around nothing, any will do
+    arrays.diagonal = static_cast<float>(2.0 * radius);
+    arrays.triangles = triangles_of(scene, arrays.place);
+    arrays.spheres = spheres_of(scene, arrays.place);
+    for (const scenes::Material& material : scene.materials)
+        arrays.materials.push_back(material_of(material, roulette));
+    for (std::uint32_t i = 0; i < scenes::primitive_count(scene); ++i) {
+        const std::uint32_t material = scenes::material_of(scene, i);
+        arrays.surfaces.push_back({material, no_emitter});
+        if (arrays.materials[material].kind != MaterialKind::emission)
+            arrays.largest_survival =
+                std::max(arrays.largest_survival, arrays.materials[material].survival);
+    }
+    add_emitters(arrays, scene, radius);
+    add_contacts(arrays, scene);
+    return arrays;
+}
+
+Camera camera_of(const scenes::Scene& scene, const Placement& place, int width, int height)
+{
+    const scenes::Camera& source = scene.camera.value();
+    const int across = source.fov_axis == scenes::FovAxis::horizontal ? width : height;
+    const double pixel_size = 2.0 * std::tan(source.fov / 2.0) / across;
+    return {place(source.eye),
+            Vec3(source.right),
+            Vec3(source.up),
+            Vec3(source.backward),
+            static_cast<float>(pixel_size),
+            static_cast<float>(width * pixel_size * height * pixel_size),
+            static_cast<std::uint32_t>(width),
+            static_cast<std::uint32_t>(height)};
+}
+
+Needs needs_of(const SceneArrays& arrays)
+{
+    Needs needs{!arrays.spheres.empty(), false, false};
+    for (const Surface& surface : arrays.surfaces) {
+        const MaterialKind kind = arrays.materials[surface.material].kind;
+        needs.specular = needs.specular || kind == MaterialKind::mirror || kind == MaterialKind::glass;
+    }
+    for (const Emitter& emitter : arrays.emitters)
+        needs.other_lights = needs.other_lights || emitter.kind != EmitterKind::triangle;
+    return needs;
+}
+
+int most_light_vertices(const SceneArrays& arrays, int max_edges)
+{
+    const double survival = arrays.largest_survival;
+    if (!(survival < 1.0)) return max_edges;
+    const double bounces = survival > 0.0 ? std::ceil(24.0 * std::log(2.0) / -std::log(survival)) : 0.0;
+    return static_cast<int>(std::min<double>(max_edges, bounces_without_roulette + 1 + bounces));
+}
+
+} // namespace fast
