@@ -6,8 +6,8 @@
 #include "cuda/trees/bytes_moved.h"
 #include "cuda/trees/hploc.h"
 #include "cuda/trees/lbvh.h"
-#include "cuda/trees/scene_geometry.h"
 #include "cuda/trees/sah_cost.h"
+#include "cuda/trees/scene_geometry.h"
 
 #include <nlohmann/json.hpp>
 

@@ -3,6 +3,7 @@
 #include "scenes/contacts.h"
 
 #include "scenes/largest_component.h"
+#include "scenes/lights.h"
 #include "scenes/primitive_name.h"
 
 #include <glm/geometric.hpp>
@@ -62,10 +63,9 @@ std::vector<std::string> contact_notices(const Scene& scene)
 {
     std::vector<std::string> notices;
     if (scene.camera) add_end(notices, scene, "the eye", scene.camera->eye);
-    for (std::size_t i = 0; i < scene.point_lights.size(); ++i)
-        add_end(notices, scene, "point light " + std::to_string(i + 1), scene.point_lights[i].position);
-    for (std::size_t i = 0; i < scene.spot_lights.size(); ++i)
-        add_end(notices, scene, "spot light " + std::to_string(i + 1), scene.spot_lights[i].position);
+    for_each_light_position(scene, [&](const Vec3& position, const std::string& name) {
+        add_end(notices, scene, name, position);
+    });
 
     bool complete = true;
     const Coincidences coincident = coincidences(scene, double_rounding, &complete);

@@ -13,12 +13,6 @@ bool is_emissive(const Material& material)
     return emission != nullptr && emission->radiance != Rgb(0.0);
 }
 
-bool any_shines(const auto& lights)
-{
-    return std::any_of(lights.begin(), lights.end(),
-                       [](const auto& light) { return is_emitter(light); });
-}
-
 } // namespace
 
 bool is_emitter(const Scene& scene, const Triangle& triangle)
@@ -31,21 +25,6 @@ bool is_emitter(const Scene& scene, const Triangle& triangle)
 bool is_emitter(const Scene& scene, const Sphere& sphere)
 {
     return is_emissive(scene.materials[sphere.material]);
-}
-
-bool is_emitter(const PointLight& light)
-{
-    return light.intensity != Rgb(0.0);
-}
-
-bool is_emitter(const DirectionalLight& light)
-{
-    return light.irradiance != Rgb(0.0);
-}
-
-bool is_emitter(const SpotLight& light)
-{
-    return light.intensity != Rgb(0.0);
 }
 
 bool has_environment(const Scene& scene)
@@ -62,9 +41,9 @@ bool has_emissive_geometry(const Scene& scene)
 
 bool has_emitter(const Scene& scene)
 {
-    return has_emissive_geometry(scene) || any_shines(scene.point_lights) ||
-           any_shines(scene.directional_lights) || any_shines(scene.spot_lights) ||
-           has_environment(scene);
+    bool any = has_emissive_geometry(scene) || has_environment(scene);
+    for_each_light(scene, [&](const auto& light, std::size_t) { any = any || is_emitter(light); });
+    return any;
 }
 
 } // namespace scenes

@@ -1,22 +1,25 @@
 #pragma once
 
-// What shines in a scene. Black light does not, and neither does a surface without area.
+// The emitters of a scene. A black light is not an emitter, and neither is a surface without area.
 
-#include "scenes/scene.h"
+#include "scenes/lights.h"
 
 namespace scenes {
 
 bool is_emitter(const Scene& scene, const Triangle& triangle);
 bool is_emitter(const Scene& scene, const Sphere& sphere);
-bool is_emitter(const PointLight& light);
-bool is_emitter(const DirectionalLight& light);
-bool is_emitter(const SpotLight& light);
+/// Of a light of lights.h.
+template <class Light>
+bool is_emitter(const Light& light)
+{
+    return emitted_by(light) != Rgb(0.0);
+}
 bool has_environment(const Scene& scene);
 
-/// Whether some triangle or sphere shines.
+/// Whether some triangle or sphere is an emitter.
 bool has_emissive_geometry(const Scene& scene);
 
-/// Whether anything shines: geometry, a light or the environment.
+/// Whether there is any emitter: geometry, a light or the environment.
 bool has_emitter(const Scene& scene);
 
 } // namespace scenes

@@ -2,6 +2,7 @@
 
 #include "scenes/bounds.h"
 #include "scenes/largest_component.h"
+#include "scenes/lights.h"
 #include "scenes/read_scene.h"
 
 #include <glm/common.hpp>
@@ -50,8 +51,7 @@ void for_each_coordinate(Scene& scene, const Point& change, const Length& change
         change(sphere.center);
         change_length(sphere.radius);
     }
-    for (PointLight& light : scene.point_lights) change(light.position);
-    for (SpotLight& light : scene.spot_lights) change(light.position);
+    for_each_light_position(scene, [&](Vec3& position, const std::string&) { change(position); });
     if (scene.camera) change(scene.camera->eye);
 }
 
@@ -74,17 +74,12 @@ void check_light(const Scene& scene)
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (const auto* emission = std::get_if<Emission>(&scene.materials[i]))
             check(emission->radiance, "material \"" + scene.material_names[i] + "\": a radiance");
-    const auto numbered = [](const char* kind, std::size_t i) {
-        return std::string(kind) + " " + std::to_string(i + 1) + ": ";
-    };
-    const std::string intensity = "an intensity (with the scene about one unit large)";
-    for (std::size_t i = 0; i < scene.point_lights.size(); ++i)
-        check(scene.point_lights[i].intensity, numbered("point light", i) + intensity);
-    for (std::size_t i = 0; i < scene.spot_lights.size(); ++i)
-        check(scene.spot_lights[i].intensity, numbered("spot light", i) + intensity);
-    for (std::size_t i = 0; i < scene.directional_lights.size(); ++i)
-        check(scene.directional_lights[i].irradiance,
-              numbered("directional light", i) + "an irradiance");
+    for_each_light(scene, [&](const auto& light, std::size_t index) {
+        check(emitted_by(light),
+              light_name(light, index) +
+                  (has_position<decltype(light)> ? ": an intensity (with the scene about one unit large)"
+                                                 : ": an irradiance"));
+    });
     if (scene.environment) check(*scene.environment, "the environment: a radiance");
 }
 
@@ -131,10 +126,11 @@ Scene placed(Scene scene)
             const auto scale_point = [&](Vec3& v) { v = scaled(v, scale); };
             for_each_coordinate(scene, scale_point,
                                 [&](double& length) { length = std::ldexp(length, scale); });
-            for (PointLight& light : scene.point_lights)
-                light.intensity = scaled(light.intensity, 2 * scale);
-            for (SpotLight& light : scene.spot_lights)
-                light.intensity = scaled(light.intensity, 2 * scale);
+            for_each_light(scene,
+                           [&](auto& light, std::size_t) { // intensities grow with a length squared
+                               if constexpr (has_position<decltype(light)>)
+                                   light.intensity = scaled(light.intensity, 2 * scale);
+                           });
 
             const Bounds here = *bounds(scene);
             check_spacing(scene, here);

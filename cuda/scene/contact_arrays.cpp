@@ -3,6 +3,7 @@
 #include "cuda/transport/surface_point.h"
 #include "cuda/trees/clearance.h"
 #include "scenes/contacts.h"
+#include "scenes/lights.h"
 
 #include <glm/geometric.hpp>
 
@@ -281,14 +282,16 @@ void add_contacts(SceneArrays& arrays, const scenes::Scene& scene)
 {
     add_coincident(arrays, scene, moved(scene, arrays.place));
     add_clearances(arrays);
-    for (std::size_t i = 0; i < arrays.emitters.size(); ++i) {
-        const Emitter& emitter = arrays.emitters[i];
-        EndContacts& contacts = arrays.lights[i].contacts;
-        if (emitter.kind == EmitterKind::point)
-            contacts = contacts_of(arrays, scene, scene.point_lights[emitter.index].position);
-        if (emitter.kind == EmitterKind::spot)
-            contacts = contacts_of(arrays, scene, scene.spot_lights[emitter.index].position);
-    }
+    // Lights follow the surfaces among the emitters, in the order of for_each_light.
+    auto emitter = static_cast<std::size_t>(
+        std::ranges::find_if(arrays.emitters,
+                             [](const Emitter& e) { return !is_surface<any_needs>(e); }) -
+        arrays.emitters.begin());
+    scenes::for_each_light(scene, [&](const auto& light, std::size_t) {
+        if constexpr (scenes::has_position<decltype(light)>)
+            arrays.lights[emitter].contacts = contacts_of(arrays, scene, light.position);
+        ++emitter;
+    });
     if (scene.camera) arrays.eye_contacts = contacts_of(arrays, scene, scene.camera->eye);
 }
 

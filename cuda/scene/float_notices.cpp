@@ -5,6 +5,7 @@
 #include "scenes/bounds.h"
 #include "scenes/contacts.h"
 #include "scenes/largest_component.h"
+#include "scenes/lights.h"
 #include "scenes/primitive_name.h"
 
 #include <glm/common.hpp>
@@ -148,12 +149,9 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
     const double diagonal = glm::length(box->max - box->min);
     add_narrow_gaps(notices, scene, place, diagonal);
     if (scene.camera) add_end(notices, scene, diagonal, "the eye", scene.camera->eye);
-    for (std::size_t i = 0; i < scene.point_lights.size(); ++i)
-        add_end(notices, scene, diagonal, "point light " + std::to_string(i + 1),
-                scene.point_lights[i].position);
-    for (std::size_t i = 0; i < scene.spot_lights.size(); ++i)
-        add_end(notices, scene, diagonal, "spot light " + std::to_string(i + 1),
-                scene.spot_lights[i].position);
+    scenes::for_each_light_position(scene, [&](const scenes::Vec3& position, const std::string& name) {
+        add_end(notices, scene, diagonal, name, position);
+    });
     return notices;
 }
 

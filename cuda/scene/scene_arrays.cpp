@@ -3,93 +3,16 @@
 #include "cuda/scene/contact_arrays.h"
 #include "cuda/transport/emitter_choice.h"
 #include "scenes/bounds.h"
+#include "scenes/lights.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 
 namespace fast {
 
 namespace {
-
-Material material_of(const scenes::Material& source, bool roulette)
-{
-    Material result{};
-    double albedo = 0;
-    const auto largest = [](const scenes::Rgb& c) { return std::max({c.x, c.y, c.z}); };
-    if (const auto* lambertian = std::get_if<scenes::Lambertian>(&source)) {
-        result.kind = MaterialKind::lambertian;
-        result.color = Rgb(lambertian->albedo);
-        albedo = largest(lambertian->albedo);
-    } else if (const auto* mirror = std::get_if<scenes::Mirror>(&source)) {
-        result.kind = MaterialKind::mirror;
-        result.color = Rgb(mirror->reflectance);
-        albedo = largest(mirror->reflectance);
-    } else if (const auto* glass = std::get_if<scenes::Glass>(&source)) {
-        result.kind = MaterialKind::glass;
-        result.color = Rgb(glass->reflectance);
-        result.transmittance = Rgb(glass->transmittance);
-        result.ior = static_cast<float>(glass->ior);
-        albedo = std::max(largest(glass->reflectance), largest(glass->transmittance));
-    } else {
-        result.kind = MaterialKind::emission;
-        result.color = Rgb(std::get<scenes::Emission>(source).radiance);
-    }
-    // Below 1 even on a perfect mirror: every walk ends.
-    result.survival = roulette ? static_cast<float>(std::min(0.95, albedo)) : 1.0f;
-    return result;
-}
-
-double average(const scenes::Rgb& c)
-{
-    return (c.x + c.y + c.z) / 3.0;
-}
-
-/// Integral of cos^exponent over the cone, which ends at the horizon at the latest unless the lobe is
-/// constant.
-double spot_solid_angle(const scenes::SpotLight& spot)
-{
-    const double c = spot.exponent > 0.0 ? std::max(0.0, spot.cos_cutoff) : spot.cos_cutoff;
-    return 2.0 * std::numbers::pi * (1.0 - std::pow(c, spot.exponent + 1.0)) / (spot.exponent + 1.0);
-}
-
-/// 1 - cos of the half angle of the cone that a spot light's directions are drawn in.
-///
-/// Beyond cos^n < 2^-150 the intensity is 0 as a float. Where that lobe is less than a quarter of the
-/// cone, the cone ends with it: else few walks would begin in the lobe, and these in few directions, as
-/// the numbers u that choose them are multiples of 2^-24. A sum over these in place of the integral errs
-/// by half a step, n (1 - c) 2^-25 of the power; now n (1 - c) is at most about 4 * 104. For such a
-/// light the density is not that of the reference, and its light walks are other ones.
-double versine_cutoff(const scenes::SpotLight& spot)
-{
-    const double cone = 1.0 - spot.cos_cutoff;
-    if (!(spot.exponent > 0.0)) return cone;
-    const double lobe = -std::expm1(-150.0 * std::numbers::ln2 / spot.exponent);
-    return lobe < cone / 4.0 ? lobe : cone;
-}
-
-/// Throws std::invalid_argument for the spot light of that index if floats cannot hold it.
-void check_spot(const scenes::SpotLight& spot, std::size_t index)
-{
-    const auto refuse = [&](const char* format, double number, double limit) {
-        std::array<char, 160> what{};
-        std::snprintf(what.data(), what.size(), format, index + 1, number, limit);
-        throw std::invalid_argument(what.data());
-    };
-    const double half_angle = 2.0 * std::asin(std::sqrt((1.0 - spot.cos_cutoff) / 2.0));
-    const auto full_degrees = [](double half) { return half * 360.0 / std::numbers::pi; };
-    if (!(half_angle >= least_half_angle))
-        refuse("spot light %zu: a cone of %.3g degrees is too narrow for single precision, which holds "
-               "%.3g and more",
-               full_degrees(half_angle), full_degrees(least_half_angle));
-    if (!(spot.exponent <= most_exponent))
-        refuse("spot light %zu: an exponent of %.3g is too large for single precision, which holds up "
-               "to %.3g",
-               spot.exponent, most_exponent);
-}
 
 /// Collects emitters with their power, and gives them their probabilities in the end.
 class EmitterList {
@@ -173,30 +96,19 @@ void add_emitters(SceneArrays& arrays, const scenes::Scene& scene, double radius
             list.add(EmitterKind::sphere, primitive, area,
                      std::numbers::pi * area * average(emits->radiance), emits->radiance);
         }
-    for (std::size_t i = 0; i < scene.point_lights.size(); ++i) {
-        const auto& light = scene.point_lights[i];
-        list.add(EmitterKind::point, i, 0, square * 4.0 * std::numbers::pi * average(light.intensity),
-                 square * light.intensity, {arrays.place(light.position), Vec3(0.0f), 0, 0});
-    }
-    for (std::size_t i = 0; i < scene.spot_lights.size(); ++i) {
-        const auto& light = scene.spot_lights[i];
-        check_spot(light, i);
-        list.add(EmitterKind::spot, i, 0, square * spot_solid_angle(light) * average(light.intensity),
-                 square * light.intensity,
-                 {arrays.place(light.position), Vec3(light.direction),
-                  static_cast<float>(versine_cutoff(light)), static_cast<float>(light.exponent)});
-    }
-    // What comes from infinity counts as far as it falls on a sphere around the scene.
-    const double disc = std::numbers::pi * radius * radius;
-    for (std::size_t i = 0; i < scene.directional_lights.size(); ++i) {
-        const auto& light = scene.directional_lights[i];
-        list.add(EmitterKind::directional, i, 0, disc * average(light.irradiance), light.irradiance,
-                 {Vec3(0.0f), Vec3(light.direction), 0, 0});
-    }
+    // Of light from infinity, the power is that which falls on a sphere around the scene.
+    const double disc_area = std::numbers::pi * radius * radius;
+    scenes::for_each_light(scene, [&](const auto& light, std::size_t i) {
+        if constexpr (scenes::has_position<decltype(light)>)
+            list.add(kind_of(light), i, 0, square * power(light), square * light.intensity,
+                     as_floats(light, i, arrays.place(light.position)));
+        else
+            list.add(kind_of(light), i, 0, power(light, disc_area), light.irradiance, as_floats(light));
+    });
     arrays.has_environment = scene.environment.has_value();
     if (scene.environment)
-        list.add(EmitterKind::environment, 0, 0,
-                 4.0 * std::numbers::pi * disc * average(*scene.environment), *scene.environment);
+        list.add(EmitterKind::environment, 0, 0, power_of_environment(*scene.environment, disc_area),
+                 *scene.environment);
     list.finish();
 }
 
@@ -219,6 +131,7 @@ SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
 {
     SceneArrays arrays;
     arrays.place = placement_of(scene);
+    arrays.needs = needs_of(scenes::requirements(scene));
     double radius = 0;
     if (const auto box = scenes::bounds(scene))
         radius = glm::length(box->max - box->min) * arrays.place.scale / 2.0;
@@ -255,16 +168,14 @@ Camera camera_of(const scenes::Scene& scene, const Placement& place, int width, 
             static_cast<std::uint32_t>(height)};
 }
 
-Needs needs_of(const SceneArrays& arrays)
+Needs needs_of(const scenes::Requirements& required)
 {
-    Needs needs{!arrays.spheres.empty(), false, false};
-    for (const Surface& surface : arrays.surfaces) {
-        const MaterialKind kind = arrays.materials[surface.material].kind;
-        needs.specular = needs.specular || kind == MaterialKind::mirror || kind == MaterialKind::glass;
-    }
-    for (const Emitter& emitter : arrays.emitters)
-        needs.other_lights = needs.other_lights || emitter.kind != EmitterKind::triangle;
-    return needs;
+    using scenes::Bsdf;
+    std::set<scenes::EmitterKind> others = required.emitters;
+    others.erase(scenes::EmitterKind::triangle);
+    return {required.shapes.contains(scenes::Shape::sphere),
+            required.bsdfs.contains(Bsdf::mirror) || required.bsdfs.contains(Bsdf::glass),
+            !others.empty()};
 }
 
 int most_light_vertices(const SceneArrays& arrays, int max_edges)

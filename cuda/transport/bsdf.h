@@ -1,10 +1,15 @@
 #pragma once
 
-// Reflection and refraction at a surface. Directions are unit vectors of the local frame, z = geometric
-// normal, and point away from the surface: wo to the previous vertex of the walk, wi to the next.
+// Reflection and refraction at a surface: all that the fast path knows about a kind of material.
+// Directions are unit vectors of the local frame, z = geometric normal, and point away from the surface:
+// wo to the previous vertex of the walk, wi to the next.
 
 #include "cuda/transport/random.h"
 #include "cuda/transport/sampling.h"
+#include "scenes/scene.h"
+
+#include <algorithm>
+#include <variant>
 
 namespace fast {
 
@@ -18,6 +23,35 @@ struct Material {
     Rgb color;         // albedo, reflectance, or emitted radiance
     Rgb transmittance; // of glass
 };
+
+/// On the host: the material as floats. Without `roulette` every walk goes on.
+inline Material material_of(const scenes::Material& source, bool roulette)
+{
+    Material result{};
+    double albedo = 0;
+    const auto largest = [](const scenes::Rgb& c) { return std::max({c.x, c.y, c.z}); };
+    if (const auto* lambertian = std::get_if<scenes::Lambertian>(&source)) {
+        result.kind = MaterialKind::lambertian;
+        result.color = Rgb(lambertian->albedo);
+        albedo = largest(lambertian->albedo);
+    } else if (const auto* mirror = std::get_if<scenes::Mirror>(&source)) {
+        result.kind = MaterialKind::mirror;
+        result.color = Rgb(mirror->reflectance);
+        albedo = largest(mirror->reflectance);
+    } else if (const auto* glass = std::get_if<scenes::Glass>(&source)) {
+        result.kind = MaterialKind::glass;
+        result.color = Rgb(glass->reflectance);
+        result.transmittance = Rgb(glass->transmittance);
+        result.ior = static_cast<float>(glass->ior);
+        albedo = std::max(largest(glass->reflectance), largest(glass->transmittance));
+    } else {
+        result.kind = MaterialKind::emission;
+        result.color = Rgb(std::get<scenes::Emission>(source).radiance);
+    }
+    // Below 1 even on a perfect mirror: every walk ends.
+    result.survival = roulette ? static_cast<float>(std::min(0.95, albedo)) : 1.0f;
+    return result;
+}
 
 /// What a walk carries [Veach 1997, sec. 5.2].
 enum class Transport { radiance, power };

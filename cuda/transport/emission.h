@@ -1,12 +1,12 @@
 #pragma once
 
-// How light walks begin: an emitter, its vertex y_0, and the ray that leaves it.
+// The start of a light walk: an emitter, its vertex y_0, and the ray that leaves it.
 
 #include "cuda/transport/emitter.h"
 
 namespace fast {
 
-/// The beginning of a light walk.
+/// The start of a light walk.
 struct SampledEmission {
     std::uint32_t emitter;
     Ray ray;             // from y_0, or from far outside, into the scene
@@ -41,27 +41,17 @@ HD SampledEmission sample_emission(const SceneView<needs>& scene, const Uniforms
     if constexpr (needs.other_lights) {
         const Light& light = scene.lights[emission.emitter];
         if (at_infinity<needs>(emitter)) {
-            const bool everywhere = emitter.kind == EmitterKind::environment;
-            emission.towards = everywhere ? sample_sphere(position[1], position[2]) : -light.direction;
+            emission.towards = sample_towards(emitter, light, position[1], position[2]);
             const Frame frame(emission.towards);
             Vec3 disc(0.0f, 0.0f, 2.0f);
             on_circle(std::sqrt(direction[0]), direction[1], disc.x, disc.y);
             emission.ray = {scene.radius * frame.to_world(disc), infinity, -emission.towards};
             emission.pdf_direction = pdf_area_disc(scene);
         } else {
-            Vec3 w = sample_sphere(direction[0], direction[1]);
-            emission.pdf_direction = pdf_solid_angle_sphere;
-            emission.alpha = emitter.emitted;
-            if (emitter.kind == EmitterKind::spot) {
-                const float off_axis = direction[0] * light.versine_cutoff; // 1 - cos(theta)
-                Vec3 w_local(0.0f, 0.0f, 1.0f - off_axis);
-                on_circle(std::sqrt(off_axis * (2.0f - off_axis)), direction[1], w_local.x, w_local.y);
-                w = glm::normalize(Frame(light.direction).to_world(w_local));
-                emission.pdf_direction = pdf_solid_angle_cone(light);
-                // Of the angle as drawn: what w rounds to may lie outside of the cone, and none of the
-                // power may be lost by it.
-                emission.alpha *= spot_falloff(light, off_axis);
-            }
+            SourceDirection drawn{};
+            const Vec3 w = sample_source_direction(emitter, light, direction[0], direction[1], drawn);
+            emission.pdf_direction = drawn.pdf_solid_angle;
+            emission.alpha = emitter.emitted * drawn.falloff;
             emission.end.position = light.position;
             emission.ray = {leave_end(scene, light.position, light.contacts, w), infinity, w};
         }

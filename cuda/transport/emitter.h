@@ -1,8 +1,8 @@
 #pragma once
 
-// Where light comes from: choosing an emitter, and drawing light for a point (next event). How light
-// walks begin is in emission.h. Densities are those of the reference. Two of them have the measure of
-// their emitter:
+// Choosing an emitter, and drawing light for a point (next event). The start of light walks is in
+// emission.h; how one kind of emitter differs from another, in emitter_kinds.h. Densities are those of
+// the reference. The measure of two of them depends on the emitter:
 //
 //   emitter             pdf_position of y_0      pdf_direction from y_0
 //   triangle, sphere    per area                 per solid angle
@@ -19,8 +19,8 @@
 
 namespace fast {
 
-/// The number of the emitter that `u` in [0, 1) falls on: the first whose sum exceeds u. Emitters of no
-/// power are never chosen. There must be one that has some.
+/// The number of the emitter that `u` in [0, 1) falls on: the first whose sum exceeds u. An emitter
+/// without power is never chosen. At least one emitter must have power.
 template <Needs needs>
 HD std::uint32_t choose_emitter(const SceneView<needs>& scene, float u)
 {
@@ -36,31 +36,6 @@ HD std::uint32_t choose_emitter(const SceneView<needs>& scene, float u)
     return first;
 }
 
-/// Whether the eye walk can run into the emitter, and a pinhole see it.
-template <Needs needs>
-HD bool can_be_hit(const Emitter& emitter)
-{
-    if constexpr (!needs.other_lights) return true;
-    return emitter.kind == EmitterKind::triangle || emitter.kind == EmitterKind::sphere ||
-           emitter.kind == EmitterKind::environment;
-}
-
-/// Whether the emitter is infinitely far away.
-template <Needs needs>
-HD bool at_infinity(const Emitter& emitter)
-{
-    if constexpr (!needs.other_lights) return false;
-    return emitter.kind == EmitterKind::directional || emitter.kind == EmitterKind::environment;
-}
-
-/// Whether the emitter is a surface.
-template <Needs needs>
-HD bool is_surface(const Emitter& emitter)
-{
-    if constexpr (!needs.other_lights) return true;
-    return emitter.kind == EmitterKind::triangle || emitter.kind == EmitterKind::sphere;
-}
-
 /// A uniform point on an emitter that is a surface.
 template <Needs needs>
 HD SurfacePoint sample_surface(const SceneView<needs>& scene, const Emitter& emitter, float u1, float u2)
@@ -74,42 +49,14 @@ HD SurfacePoint sample_surface(const SceneView<needs>& scene, const Emitter& emi
     return triangle_point(scene, emitter.index, b1, b2);
 }
 
-/// 1 - cos of the angle between two unit vectors.
-///
-/// A cosine near 1 is known to within u = 2^-24, which is all of 1 - cos for an angle of 0.02 degrees.
-/// For |a| = 1 + e and |b| = 1 + f, e and f at most 4 u, however,
-///     |a - b|^2 / 2 = (1 + e) (1 + f) (1 - cos) + (e - f)^2 / 2:
-/// the lengths enter by 8 u relatively and by 8 u^2. The differences of coordinates, the squares and
-/// their sum round by 5 u relatively. What is left are the directions of a and b: an angle of d between
-/// the true and the rounded one changes 1 - cos by d sin.
-HD inline float versine(const Vec3& a, const Vec3& b)
-{
-    const Vec3 difference = a - b;
-    return 0.5f * glm::dot(difference, difference);
-}
-
-/// Intensity of a spot light in a direction of its cone, as a fraction of that along the axis; `versine`
-/// is that of the angle from the axis. cos^n = exp(n log(1 - versine)).
-HD inline float spot_falloff(const Light& spot, float versine)
-{
-    if (spot.exponent == 0.0f) return 1.0f;
-    return versine < 1.0f ? std::exp(spot.exponent * std::log1p(-versine)) : 0.0f;
-}
-
-/// Directions of a spot light are uniform in its cone.
-HD inline float pdf_solid_angle_cone(const Light& spot)
-{
-    return 1.0f / (2.0f * pi * spot.versine_cutoff);
-}
-
 /// pdf_position: the density with which the emitter and its y_0 are drawn. 0 for a surface of no area.
 template <Needs needs>
 HD float pdf_emission_position(const Emitter& emitter)
 {
     if (is_surface<needs>(emitter))
         return emitter.area > 0.0f ? emitter.probability / emitter.area : 0.0f;
-    return emitter.kind == EmitterKind::environment ? emitter.probability * pdf_solid_angle_sphere
-                                                    : emitter.probability;
+    return at_infinity<needs>(emitter) ? emitter.probability * pdf_towards(emitter)
+                                       : emitter.probability;
 }
 
 /// The start of a walk from infinity is a uniform point of a disc that covers the scene: the density per
@@ -120,7 +67,7 @@ HD float pdf_area_disc(const SceneView<needs>& scene)
     return inverse_pi / (scene.radius * scene.radius);
 }
 
-/// Light that may reach a point `from`, and all that the weights need of it.
+/// Light that may reach a point `from`, with the densities that the weights need.
 struct IncidentLight {
     std::uint32_t emitter;
     Vec3 wi;            // unit, from the point towards the light
@@ -162,11 +109,8 @@ HD bool sample_incident(const SceneView<needs>& scene, const Vec3& from, const U
         const Light& source = scene.lights[light.emitter];
         light.geometry = 1.0f;
         light.alpha = emitter.emitted / light.pdf_position;
-        if (emitter.kind == EmitterKind::environment) {
-            light.wi = sample_sphere(u[1], u[2]);
-            light.pdf_rev_area_across = pdf_area_disc(scene);
-        } else if (emitter.kind == EmitterKind::directional) {
-            light.wi = -source.direction;
+        if (at_infinity<needs>(emitter)) {
+            light.wi = sample_towards(emitter, source, u[1], u[2]);
             light.pdf_rev_area_across = pdf_area_disc(scene);
         } else {
             const Vec3 d = source.position - from;
@@ -175,15 +119,11 @@ HD bool sample_incident(const SceneView<needs>& scene, const Vec3& from, const U
             light.wi = d * std::sqrt(inverse_distance2);
             light.target = leave_end(scene, source.position, source.contacts, -d,
                                      distance2 * std::sqrt(inverse_distance2));
+            SourceDirection direction{};
+            if (!source_direction(emitter, source, -light.wi, direction)) return false;
             light.alpha *= inverse_distance2;
-            float pdf_solid_angle = pdf_solid_angle_sphere;
-            if (emitter.kind == EmitterKind::spot) {
-                const float off_axis = versine(source.direction, -light.wi);
-                if (!(off_axis < source.versine_cutoff)) return false;
-                light.alpha *= spot_falloff(source, off_axis);
-                pdf_solid_angle = pdf_solid_angle_cone(source);
-            }
-            light.pdf_rev_area_across = pdf_solid_angle * inverse_distance2;
+            light.alpha *= direction.falloff;
+            light.pdf_rev_area_across = direction.pdf_solid_angle * inverse_distance2;
         }
     }
     return !is_black(light.alpha);

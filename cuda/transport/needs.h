@@ -1,13 +1,14 @@
 #pragma once
 
-// What a scene can do without. A kernel is compiled once for each combination, and what a scene does not
-// have costs its kernels nothing: no branch, no register.
+// Features that a kernel can be compiled without. Each combination is compiled once, so a feature that a
+// scene does not use costs its kernels no branch and no register.
 
 #include "images/render_options.h"
 
 namespace fast {
 
-/// A template argument of whatever depends on it. Triangles and Lambertian surfaces are always there.
+/// A template argument of the kernels and of all that they call. Triangles and Lambertian surfaces are
+/// always supported.
 struct Needs {
     bool spheres;      // besides triangles
     bool specular;     // mirrors or glass
@@ -18,6 +19,9 @@ struct Needs {
     }
     friend constexpr bool operator==(const Needs&, const Needs&) = default;
 };
+
+/// Of a kernel that can do everything.
+constexpr Needs any_needs{true, true, true};
 
 /// Path tracing and light tracing are bidirectional path tracing with some strategies left out.
 using images::Integrator;

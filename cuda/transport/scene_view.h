@@ -6,47 +6,21 @@
 
 #include "cuda/transport/bsdf.h"
 #include "cuda/transport/camera.h"
+#include "cuda/transport/emitter_kinds.h"
 #include "cuda/transport/needs.h"
 #include "cuda/trees/clearance.h"
 #include "cuda/trees/surfaces.h"
 
 namespace fast {
 
-enum class EmitterKind : std::uint32_t { triangle, sphere, point, directional, spot, environment };
-
 constexpr std::uint32_t no_emitter = 0xffff'ffff;
 
-/// One emitter: the `index`-th of its kind; of triangles and spheres, the primitive.
-struct Emitter {
-    EmitterKind kind;
-    std::uint32_t index;
-    float area;        // m^2; 0 where there is no surface
-    float probability; // of being chosen (emitter_choice.h)
-    Rgb emitted;       // radiance; intensity of point and spot; irradiance of a directional light
-};
-
-/// What an end of paths that is no surface lies on: ranges of SceneView::contact_planes and
-/// contact_triangles, mostly empty.
-struct EndContacts {
-    std::uint32_t first_plane, plane_count;
-    std::uint32_t first_triangle, triangle_count;
-};
-
-/// A plane through such an end, or so near it that floats cannot tell its side. Adding `push` times a
-/// distance moves a point by that to the side of `normal`, and along the other planes of the end. Where
-/// the side is known `normal` is 0, and `push` goes to that side.
+/// A plane through an end of paths that is not a surface, or so near it that floats cannot tell its
+/// side. Adding `push` times a distance moves a point by that to the side of `normal`, and along the
+/// other planes of the end. Where the side is known `normal` is 0, and `push` goes to that side.
 struct ContactPlane {
     Vec3 normal, push;
     float clearance; // by which rays must be moved (clearance.h), less the end's own distance; maybe < 0
-};
-
-/// A light of no extent, or at infinity.
-struct Light {
-    Vec3 position;             // of point and spot
-    Vec3 direction;            // unit: in which it travels, or the spot's axis
-    float versine_cutoff;      // of a spot: 1 - cos of the angle from the axis to the edge of its cone
-    float exponent;            // of a spot, at most most_exponent (scene_arrays.h)
-    EndContacts contacts = {}; // of point and spot
 };
 
 /// What shading must know of a primitive. Read at every vertex of a walk: within one line of the cache.

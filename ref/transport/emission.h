@@ -1,6 +1,6 @@
 #pragma once
 
-// How light walks begin: a point on an emitter, then a direction from it, each with its density.
+// The start of a light walk: a point on an emitter, then a direction from it, each with its density.
 
 #include "ref/transport/vertex.h"
 
@@ -32,11 +32,10 @@ double pdf_area_emission_direction(const World& world, const Vertex& y0, const V
 /// environment, intensity (W sr^-1) of a point or spot light, irradiance (W m^-2) of a directional one.
 Rgb emitted(const World& world, const Vertex& y0, const Vertex& y1);
 
-/// Whether the eye walk can run into y0, and a pinhole see it.
+/// Whether the eye walk can hit the emitter, and a pinhole see it.
 inline bool can_be_hit(const Emitter& emitter)
 {
-    return emitter.kind == EmitterKind::triangle || emitter.kind == EmitterKind::sphere ||
-           emitter.kind == EmitterKind::environment;
+    return can_be_hit(emitter.kind);
 }
 
 } // namespace ref

@@ -4,6 +4,7 @@
 #include "ref/trees/scaled_length.h"
 #include "scenes/bounds.h"
 #include "scenes/contacts.h"
+#include "scenes/lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,23 +15,10 @@ namespace {
 
 constexpr std::uint32_t not_an_emitter = ~0u;
 
-double average(const Rgb& v)
-{
-    return (v.x + v.y + v.z) / 3.0;
-}
-
 const Rgb* emission_of(const scenes::Scene& scene, std::uint32_t material)
 {
     const auto* emission = std::get_if<scenes::Emission>(&scene.materials[material]);
     return emission != nullptr ? &emission->radiance : nullptr;
-}
-
-/// Integral of cos^exponent over the cone: 2 pi (1 - c^(n+1)) / (n+1), where the lobe ends at the
-/// horizon at the latest unless it is constant.
-double spot_solid_angle(const scenes::SpotLight& light)
-{
-    const double c = light.exponent > 0.0 ? std::max(0.0, light.cos_cutoff) : light.cos_cutoff;
-    return 2.0 * pi * (1.0 - std::pow(c, light.exponent + 1.0)) / (light.exponent + 1.0);
 }
 
 } // namespace
@@ -61,24 +49,18 @@ Emitters::Emitters(const Geometry& geometry) : geometry_(&geometry)
             const double area = 4.0 * pi * scene.spheres[i].radius * scene.spheres[i].radius;
             add(EmitterKind::sphere, i, area, pi * area * average(*radiance));
         }
-    for (std::size_t i = 0; i < scene.point_lights.size(); ++i)
-        add(EmitterKind::point, i, 0.0, 4.0 * pi * average(scene.point_lights[i].intensity));
-    for (std::size_t i = 0; i < scene.spot_lights.size(); ++i)
-        add(EmitterKind::spot, i, 0.0,
-            spot_solid_angle(scene.spot_lights[i]) * average(scene.spot_lights[i].intensity));
-    // What comes from infinity counts as far as it falls on a sphere around the scene.
-    const double disc = pi * radius_ * radius_;
-    for (std::size_t i = 0; i < scene.directional_lights.size(); ++i)
-        add(EmitterKind::directional, i, 0.0, disc * average(scene.directional_lights[i].irradiance));
+    // Of light from infinity, the power is that which falls on a sphere around the scene.
+    const double disc_area = pi * radius_ * radius_;
+    scenes::for_each_light(scene, [&](const auto& light, std::size_t i) {
+        if constexpr (scenes::has_position<decltype(light)>) {
+            add(kind_of(light), i, 0.0, power(light));
+            all_.back().on = scenes::surfaces_at(scene, light.position);
+        } else {
+            add(kind_of(light), i, 0.0, power(light, disc_area));
+        }
+    });
     if (scene.environment)
-        add(EmitterKind::environment, 0, 0.0, 4.0 * pi * disc * average(*scene.environment));
-
-    for (Emitter& emitter : all_) {
-        if (emitter.kind == EmitterKind::point)
-            emitter.on = scenes::surfaces_at(scene, scene.point_lights[emitter.index].position);
-        if (emitter.kind == EmitterKind::spot)
-            emitter.on = scenes::surfaces_at(scene, scene.spot_lights[emitter.index].position);
-    }
+        add(EmitterKind::environment, 0, 0.0, power(Environment{*scene.environment}, disc_area));
 
     borders_ = choice_borders(powers);
     by_primitive_.assign(scenes::primitive_count(scene), not_an_emitter);
@@ -117,14 +99,6 @@ Rgb emitted_radiance(const scenes::Scene& scene, const SurfacePoint& point, cons
     return radiance != nullptr && glm::dot(point.normal, wo) > 0.0 ? *radiance : Rgb(0.0);
 }
 
-Rgb spot_intensity(const scenes::SpotLight& light, const Vec3& w)
-{
-    const double cosine = glm::dot(light.direction, w);
-    if (cosine <= light.cos_cutoff) return Rgb(0.0);
-    if (light.exponent == 0.0) return light.intensity;
-    return cosine > 0.0 ? light.intensity * std::pow(cosine, light.exponent) : Rgb(0.0);
-}
-
 SurfacePoint sample_surface(const Geometry& geometry, const Emitter& emitter, double u1, double u2)
 {
     if (emitter.kind == EmitterKind::triangle)
@@ -139,20 +113,8 @@ std::optional<IncidentLight> sample_incident(const Emitters& emitters, const Vec
     const Emitter* emitter = emitters.choose(u[0]);
     if (emitter == nullptr) return std::nullopt;
 
-    const auto towards_point = [&](const Vec3& position) {
-        SurfacePoint end{};
-        end.position = position;
-        return IncidentLight{
-            emitter, glm::normalize(position - from), Rgb(0.0), emitter->probability, true, end, false};
-    };
-    const auto distance2 = [&](const Vec3& position) {
-        return glm::dot(position - from, position - from);
-    };
-
     IncidentLight light{};
-    switch (emitter->kind) {
-    case EmitterKind::triangle:
-    case EmitterKind::sphere: {
+    if (is_surface(emitter->kind)) {
         const SurfacePoint end = sample_surface(emitters.geometry(), *emitter, u[1], u[2]);
         const Vec3 wi = glm::normalize(end.position - from);
         light = {emitter,
@@ -162,34 +124,25 @@ std::optional<IncidentLight> sample_incident(const Emitters& emitters, const Vec
                  false,
                  end,
                  false};
-        break;
-    }
-    case EmitterKind::point: {
-        const auto& point = scene.point_lights[emitter->index];
-        light = towards_point(point.position);
-        light.radiance = point.intensity / distance2(point.position);
-        break;
-    }
-    case EmitterKind::spot: {
-        const auto& spot = scene.spot_lights[emitter->index];
-        light = towards_point(spot.position);
-        light.radiance = spot_intensity(spot, -light.wi) / distance2(spot.position);
-        break;
-    }
-    case EmitterKind::directional: {
-        const auto& sun = scene.directional_lights[emitter->index];
-        light = {emitter, -sun.direction, sun.irradiance, emitter->probability, true, {}, true};
-        break;
-    }
-    case EmitterKind::environment:
-        light = {emitter,
-                 sample_sphere(u[1], u[2]),
-                 *scene.environment,
-                 emitter->probability * pdf_solid_angle_sphere,
-                 false,
-                 {},
-                 true};
-        break;
+    } else if (is_at_infinity(emitter->kind)) {
+        visit_distant(scene, emitter->kind, emitter->index, [&](const auto& distant) {
+            light = {emitter,
+                     sample_towards(distant, u[1], u[2]),
+                     emitted(distant),
+                     emitter->probability * pdf_towards(emitter->kind),
+                     !can_be_hit(emitter->kind),
+                     {},
+                     true};
+        });
+    } else {
+        visit_source(scene, emitter->kind, emitter->index, [&](const auto& source) {
+            const Vec3 d = source.position - from;
+            SurfacePoint end{};
+            end.position = source.position;
+            const Vec3 wi = glm::normalize(d);
+            const Rgb irradiance = intensity(source, -wi) / glm::dot(d, d);
+            light = {emitter, wi, irradiance, emitter->probability, true, end, false};
+        });
     }
     if (light.radiance == Rgb(0.0) || !(light.pdf > 0.0)) return std::nullopt;
     return light;

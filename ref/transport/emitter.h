@@ -1,8 +1,10 @@
 #pragma once
 
-// Where light comes from. Every emissive triangle, every emissive sphere, every point, directional and
-// spot light, and the environment is one emitter; a sample chooses one of them (emitter_choice.h).
+// Emitters, and light drawn for a point (next event). Every emissive triangle, every emissive sphere,
+// every point, directional and spot light, and the environment is one emitter. A sample chooses one of
+// them (emitter_choice.h). How one kind differs from another is in emitter_kinds.h.
 
+#include "ref/transport/emitter_kinds.h"
 #include "ref/transport/random.h"
 #include "ref/transport/sampling.h"
 #include "ref/trees/geometry.h"
@@ -13,15 +15,13 @@
 
 namespace ref {
 
-enum class EmitterKind { triangle, sphere, point, directional, spot, environment };
-
 /// One emitter: the `index`-th of its kind in the scene.
 struct Emitter {
     EmitterKind kind;
     std::uint32_t index;
-    double area;                        // m^2; 0 where there is no surface
-    double probability;                 // of being chosen (emitter_choice.h); 0 if it has no power
-    std::vector<std::uint32_t> on = {}; // of a point or spot light: surfaces that it lies on
+    double area;        // of a surface, in the square of the scene's unit of length; else 0
+    double probability; // of being chosen (emitter_choice.h); 0 if it has no power
+    std::vector<std::uint32_t> on = {}; // of a source: the surfaces that it lies on
 };
 
 /// Light that may reach a point: the outcome of sampling an emitter for next-event estimation.
@@ -64,12 +64,9 @@ private:
     std::vector<std::uint32_t> by_primitive_;
 };
 
-/// Radiance that leaves `point` towards unit direction `wo`: nothing unless its material emits and wo
-/// is on the side of the normal.
+/// Radiance (W m^-2 sr^-1) that leaves `point` towards the unit direction `wo`: 0 unless its material
+/// emits and wo is on the side of the normal.
 Rgb emitted_radiance(const scenes::Scene& scene, const SurfacePoint& point, const Vec3& wo);
-
-/// Intensity (W sr^-1) of a spot light towards the unit direction `w`.
-Rgb spot_intensity(const scenes::SpotLight& light, const Vec3& w);
 
 /// A uniform point on the surface of `emitter`, which must be a triangle or a sphere.
 SurfacePoint sample_surface(const Geometry& geometry, const Emitter& emitter, double u1, double u2);

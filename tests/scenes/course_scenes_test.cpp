@@ -186,7 +186,7 @@ TEST_P(CourseScene, RequiresWhatItShows)
                                                  : std::set{Bsdf::lambertian};
     EXPECT_EQ(needs.bsdfs, bsdfs);
     EXPECT_EQ(needs.emitters,
-              std::set{is("cow") ? scenes::Emitter::directional : scenes::Emitter::mesh});
+              std::set{is("cow") ? scenes::EmitterKind::directional : scenes::EmitterKind::triangle});
     EXPECT_EQ(needs.strategies.contains(Strategy::emission_hit), !is("cow"));
     EXPECT_EQ(needs.strategies.size(), is("cow") ? 3 : 4);
 }

@@ -15,7 +15,7 @@
 namespace {
 
 using scenes::Bsdf;
-using scenes::Emitter;
+using scenes::EmitterKind;
 using scenes::Rgb;
 using scenes::Scene;
 using scenes::Shape;
@@ -72,11 +72,11 @@ TEST(Requirements, ShapesAndBsdfsAreThoseInSight)
 TEST(Requirements, AnEmissiveSurfaceIsAnEmitterOfItsShapeAndNoBsdf)
 {
     Scene scene = spheres_of({lamp});
-    EXPECT_EQ(requirements(scene).emitters, std::set{Emitter::sphere});
+    EXPECT_EQ(requirements(scene).emitters, std::set{EmitterKind::sphere});
     EXPECT_TRUE(requirements(scene).bsdfs.empty());
     scene.spheres.clear();
     scene.triangles.push_back(triangle);
-    EXPECT_EQ(requirements(scene).emitters, std::set{Emitter::mesh});
+    EXPECT_EQ(requirements(scene).emitters, std::set{EmitterKind::triangle});
 }
 
 TEST(Requirements, ABlackEmissionOrOneOfNoAreaIsNoEmitter)
@@ -98,12 +98,12 @@ TEST(Requirements, LightsThatAreNotBlackAreEmitters)
     scene.environment = Rgb(0.0);
     EXPECT_TRUE(requirements(scene).emitters.empty());
     scene.point_lights.push_back(point);
-    EXPECT_EQ(requirements(scene).emitters, std::set{Emitter::point});
+    EXPECT_EQ(requirements(scene).emitters, std::set{EmitterKind::point});
     scene.directional_lights.push_back(directional);
     scene.spot_lights.push_back(spot);
     scene.environment = Rgb(0.0, 0.1, 0.0);
-    EXPECT_EQ(requirements(scene).emitters,
-              (std::set{Emitter::point, Emitter::directional, Emitter::spot, Emitter::environment}));
+    EXPECT_EQ(requirements(scene).emitters, (std::set{EmitterKind::point, EmitterKind::directional,
+                                                      EmitterKind::spot, EmitterKind::environment}));
 }
 
 TEST(Requirements, AnEmitterWithAnAreaAndADiffuseSurfaceAllowEveryStrategy)

@@ -14,7 +14,7 @@ WatchedSample WatchedScene::sample(fast::Integrator integrator, const fast::Path
     const fast::LightVertex junk{fast::Vec3(nan), nan, fast::Vec3(nan), nan, fast::Rgb(nan), nan, {}};
     std::vector<fast::LightVertex> kept(static_cast<std::size_t>(capacity), junk);
     const fast::LightVertices vertices{kept.data(), 1, capacity};
-    fast::with_needs(fast::needs_of(arrays_), [&]<fast::Needs known>() {
+    fast::with_needs(arrays_.needs, [&]<fast::Needs known>() {
         const auto view = scene_.view<known>();
         if (integrator == path) fast::trace_sample<known, path>(view, options, id, vertices, sink);
         if (integrator == bdpt) fast::trace_sample<known, bdpt>(view, options, id, vertices, sink);

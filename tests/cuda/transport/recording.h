@@ -42,7 +42,7 @@ public:
         : arrays_(fast::scene_arrays(scene, roulette)),
           scene_(memory_, executor_, arrays_, fast::camera_of(scene, arrays_.place, width, height))
     {}
-    [[nodiscard]] fast::Needs needs() const { return fast::needs_of(arrays_); }
+    [[nodiscard]] fast::Needs needs() const { return arrays_.needs; }
 
     /// By the kernel that is compiled for `needs`, which must be no less than needs().
     [[nodiscard]] std::vector<Recorded> sample(fast::Needs needs, fast::Integrator integrator,
