@@ -101,7 +101,7 @@ protected:
     double chooses = number_that_chooses(world, GetParam());
 };
 
-std::string name_of(EmitterKind kind)
+std::string kind_name(EmitterKind kind)
 {
     constexpr const char* names[] = {"triangle",    "sphere", "point",
                                      "directional", "spot",   "environment"};
@@ -109,7 +109,7 @@ std::string name_of(EmitterKind kind)
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Emission, testing::ValuesIn(kinds),
-                         [](const auto& name) { return name_of(name.param); });
+                         [](const auto& name) { return kind_name(name.param); });
 
 /// A point one unit down the ray: the next vertex as a density per solid angle wants it, facing y0.
 ref::Vertex facing_vertex(const ref::Vertex& y0, const Vec3& w)

@@ -240,7 +240,7 @@ TEST(Emitter, SpotIntensityIntegratesToItsPower)
         double sum = 0.0;
         for (int i = 0; i < steps; ++i) {
             const double z = -1.0 + 2.0 * (i + 0.5) / steps;
-            sum += intensity(spot, Vec3(std::sqrt(1.0 - z * z), 0.0, z)).x * 4 * ref::pi / steps;
+            sum += ref::intensity(spot, Vec3(std::sqrt(1.0 - z * z), 0.0, z)).x * 4 * ref::pi / steps;
         }
         EXPECT_NEAR(sum, c.expected, 4 * ref::pi / steps); // one cell at the edge of the cone
     }
