@@ -9,11 +9,11 @@
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/hploc.h"
+#include "cuda/trees/sah_cost.h"
 #include "cuda/trees/scene_geometry.h"
 #include "cuda/trees/surfaces.h"
 #include "tests/bench/bumpy_sphere.h"
 #include "tests/bench/embree.h"
-#include "cuda/trees/sah_cost.h"
 
 #include <benchmark/benchmark.h>
 

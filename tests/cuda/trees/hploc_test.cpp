@@ -4,6 +4,7 @@
 
 #include "cuda/launch/device_lbvh.h"
 #include "cuda/parallel/threaded_executor.h"
+#include "cuda/trees/sah_cost.h"
 #include "ref/trees/bvh.h"
 #include "ref/trees/is_valid_tree.h"
 #include "ref/trees/quality.h"
@@ -12,7 +13,6 @@
 #include "tests/cuda/trees/build_on.h"
 #include "tests/cuda/trees/triangles.h"
 #include "tests/ref/trees/boxes.h"
-#include "cuda/trees/sah_cost.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -113,8 +113,9 @@ TEST(IsValidRadixTree, SeesASplitThatSharesNoLongerPrefix)
     link(1, 4, 2);
     link(2, 5, 6);
     EXPECT_EQ(is_valid_tree(tree, boxes), std::vector<std::string>());
-    EXPECT_EQ(is_valid_radix_tree(tree, codes),
-              std::vector<std::string>{"node 1 shares no longer prefix than its parent 0"});
+    EXPECT_EQ(
+        is_valid_radix_tree(tree, codes),
+        std::vector<std::string>{"the common prefix of node 1 is not longer than that of its parent 0"});
     EXPECT_NE(is_valid_radix_tree(tree, std::vector<std::uint64_t>{0, 1, 2}),
               std::vector<std::string>());
 }
