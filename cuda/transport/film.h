@@ -48,7 +48,7 @@ HD constexpr std::uint64_t dropped_key(std::uint32_t pixel, int s, int t)
     return std::uint64_t{pixel} << 32 | part(s) << 16 | part(t);
 }
 
-/// What a launch of samples writes to.
+/// The memory that a launch of samples writes to.
 struct FilmTarget {
     std::span<Rgb> own; // by index of the launch: the sum of the sample for its own pixel
     SplatTarget splats;
