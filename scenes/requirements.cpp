@@ -1,21 +1,19 @@
-// When can a strategy carry light? It needs an emitter to start from and a vertex that can be joined at
-// each end of its connecting edge.
+// When can a strategy carry light? It needs an emitter to start from, and a vertex that can be joined
+// at each end of its connecting edge.
 //
 //   - An emitter that has an area (a mesh or a sphere) or surrounds the scene (the environment) can be
-//   hit
-//     by the eye walk, so emission_hit exists. Seen directly it can also be joined to the pinhole:
+//     hit by the eye walk, so emission_hit exists. Seen directly it can also be joined to the pinhole:
 //     (s,t) = (1,1), a light image.
 //   - A point or directional light or a spot is a delta emitter: no ray hits it. Seen directly it would
-//   be
-//     a single bright point of no area in the picture, which no strategy renders.
+//     be a single bright point of no area in the picture, which no strategy renders.
 //   - A mirror or smooth glass scatters into single directions: the probability that these contain the
-//     other vertex is zero, so such a vertex joins to nothing. Emission surfaces reflect nothing. What
-//     can be joined is a Lambertian surface that is not black: to a fresh point on any emitter
-//     (next_event), to the pinhole at the end of a light subpath of two vertices or more (light_image),
-//     and to another such surface (inner_connection).
+//     other vertex is zero, so such a vertex cannot be joined. Emission surfaces reflect nothing. A
+//     Lambertian surface that is not black can be joined: to a fresh point on any emitter (next_event),
+//     to the pinhole at the end of a light subpath of two vertices or more (light_image), and to
+//     another such surface (inner_connection).
 //
-// Whether anything stands between is not considered, nor whether the scene has two surfaces facing each
-// other. A scene without a camera has no paths at all.
+// It is not considered whether anything is in between, nor whether the scene has two surfaces that
+// face each other. A scene without a camera has no paths at all.
 
 #include "scenes/requirements.h"
 

@@ -68,7 +68,8 @@ void require_on_surface(const ref::World& world, const fast::SurfacePoint& point
     require(glm::length(Vec3(point.normal) - normal) <= normal_error(world, surface_of(world, point)),
             "a normal is wrong");
     const Range clearance = clearance_of(world, point.primitive, p, Vec3(point.normal));
-    require(point.clearance >= clearance.low && point.clearance <= clearance.high, "a clearance is wrong");
+    require(point.clearance >= clearance.low && point.clearance <= clearance.high,
+            "a clearance is wrong");
 }
 
 Range clearance_of(const ref::World& world, std::uint32_t primitive, const Vec3& p, const Vec3& normal)

@@ -30,7 +30,7 @@ public:
     Rgb any_colour(double low, double high);
     Vec3 any_direction();
 
-    /// Whether the frame is that of the file: then lines along an axis are exactly along it.
+    /// Whether the frame is that of the file, so that lines along an axis are exactly along it.
     [[nodiscard]] bool exact() const { return exact_; }
     [[nodiscard]] double size() const { return size_; }
     /// A factor by which all light below is multiplied.

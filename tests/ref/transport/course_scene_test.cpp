@@ -34,7 +34,7 @@ TEST_P(CourseScene, AgreesTileByTileWithAnotherRenderersPicture)
     const auto scene_path = transport_test::shared_file("scenes/CBspheres_lambertian.dae");
     const auto picture_path = transport_test::shared_file("pbrt/CBspheres_lambertian_a6.pfm");
     if (!std::filesystem::exists(scene_path) || !std::filesystem::exists(picture_path))
-        GTEST_SKIP() << "the course's scenes and pbrt's picture are not here: " << scene_path;
+        GTEST_SKIP() << "the course's scenes and pbrt's picture are not available: " << scene_path;
     const images::Image theirs = images::read_pfm(picture_path);
     const images::Image their_errors =
         images::read_pfm(transport_test::shared_file("pbrt/CBspheres_lambertian_a6_se.pfm"));
