@@ -68,8 +68,7 @@ public:
                                    int other_vertices, Heuristic heuristic) const
     {
         // At v_n the other walk would make its bounce number other_vertices.
-        const int spared_beyond =
-            bounces_without_roulette - other_vertices; // bounces without roulette after that one
+        const int spared_beyond = bounces_without_roulette - other_vertices; // later, without roulette
         const float chance = spared_beyond >= 0 ? 1.0f : survival;
         const float quotient = raised(heuristic, pdf_rev_solid_angle * geometry_over_pdf_ * chance);
         return glm::min((joinable ? 1.0f : 0.0f) +
