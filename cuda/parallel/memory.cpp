@@ -38,8 +38,7 @@ void* HostMemory::try_allocate(std::size_t bytes)
     if (bytes > std::numeric_limits<std::size_t>::max() - unit) return nullptr;
     const std::size_t whole = (bytes + unit - 1) / unit * unit;
     void* const block = std::aligned_alloc(unit, whole);
-    if (block != nullptr && unit == large_page)
-        madvise(block, whole, MADV_HUGEPAGE); // optional: may fail
+    if (block != nullptr && unit == large_page) madvise(block, whole, MADV_HUGEPAGE); // may fail
     return block;
 }
 

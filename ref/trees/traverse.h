@@ -86,8 +86,7 @@ TraversalCounts traverse(const Tree& tree, const Ray& ray, Test test)
         double t;
         std::uint32_t node;
     };
-    std::array<std::byte, 64 * sizeof(Entry)>
-        buffer; // enough for most trees; beyond it the heap is used
+    std::array<std::byte, 64 * sizeof(Entry)> buffer; // enough for most trees; then the heap is used
     std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
     std::pmr::vector<Entry> stack(&memory);
     stack.reserve(64);

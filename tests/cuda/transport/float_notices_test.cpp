@@ -37,8 +37,7 @@ TEST(FloatNotices, SayNothingOfTheScenesHere)
 TEST(FloatNotices, NameWhatCollapses)
 {
     scenes::Scene scene = ground();
-    scene.triangles.push_back(
-        {{Vec3(0), Vec3(1, 0, 0), Vec3(1, 0, 0)}, 1}); // without area in double too
+    scene.triangles.push_back({{Vec3(0), Vec3(1, 0, 0), Vec3(1, 0, 0)}, 1}); // no area in double
     EXPECT_TRUE(fast::float_notices(scene).empty());
     scene.triangles.push_back(speck(1e-9));
     scene.triangles.push_back(speck(1e-9));
