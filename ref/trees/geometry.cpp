@@ -117,7 +117,7 @@ bool occluded(const Geometry& geometry, const Ray& ray, TraversalCounts* counts)
 //      by u |m_i| in the difference v - o,
 //      by 3 u |m| in S, in the product, and in the m_z part of the last difference,
 //      by u |m_i| in the other part of the last difference,
-//      by 2 u |m| together with t, which carries 2 roundings.
+//      by 2 u |m| along the ray, because t carries 2 roundings.
 //    The sum is 2 u |m_i| + 5 u |m|. Along the longest axis it is 3 u |m|.
 //    Where a ray starts on the triangle, |m_i| <= a_i: the sum is 2 u a_i + 5 u a. The size of the
 //    scene does not matter.
