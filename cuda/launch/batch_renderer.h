@@ -1,6 +1,6 @@
 #pragma once
 
-// Batches of samples, launch by launch, on any executor.
+// Renders batches of samples, one launch after the other, on any executor.
 
 #include "cuda/launch/launch_samples.h"
 #include "cuda/launch/renderer.h"
@@ -13,19 +13,19 @@
 
 namespace fast {
 
-/// How many samples a launch may take, and how much memory their light vertices.
+/// Limits on the samples of a launch and on the memory of their light vertices.
 struct LaunchLimits {
     std::uint32_t least, most;
     std::size_t most_bytes;
 };
 
-/// How many samples a launch takes. A GPU that also drives a screen ends kernels that run for some
-/// seconds, and nobody wants to wait long for Ctrl-C; but short launches leave processors idle at their
-/// ends. So launches grow and shrink between limits until one takes about as long as it should. No
-/// sum depends on it but that of splats as floats.
+/// The number of samples per launch. A GPU that also drives a screen aborts kernels that run for some
+/// seconds, and Ctrl-C takes effect only after a launch; but short launches leave processors idle at
+/// their ends. So the size of launches is adapted, between limits, until one takes about the intended
+/// time. The size changes no sum except that of splats as floats.
 class LaunchSize {
 public:
-    /// `bytes`: what one sample keeps.
+    /// `bytes`: the memory per sample.
     LaunchSize(LaunchLimits limits, std::size_t bytes) : least_(limits.least), most_(limits.most)
     {
         while (most_ > 1 && most_ * bytes > limits.most_bytes) most_ /= 2;
@@ -44,11 +44,11 @@ private:
     std::uint32_t least_, most_, size_;
 };
 
-/// How many elements or pixels one launch counts: an index has 32 bits.
+/// The most elements or pixels of one launch: an index has 32 bits.
 constexpr std::size_t most_per_launch = 0xffff'ffff;
 
-/// The number of pixels of a picture. Throws std::invalid_argument where there are none, or more than an
-/// index can count.
+/// The number of pixels of a picture. Throws std::invalid_argument if it is 0 or more than an index
+/// can count.
 inline std::uint32_t pixel_count(int width, int height)
 {
     const std::int64_t pixels = std::int64_t{width} * height;
@@ -59,7 +59,7 @@ inline std::uint32_t pixel_count(int width, int height)
     return static_cast<std::uint32_t>(pixels);
 }
 
-/// The number of the first of the `batch_size` samples per pixel of batch `number`. Throws
+/// The first sample number of batch `number`, with `batch_size` samples per pixel. Throws
 /// std::invalid_argument for a batch that goes beyond 32 bits: its random numbers would be those of an
 /// earlier one.
 inline std::uint32_t first_sample_of(std::uint64_t number, std::uint32_t batch_size)
@@ -71,8 +71,8 @@ inline std::uint32_t first_sample_of(std::uint64_t number, std::uint32_t batch_s
     return static_cast<std::uint32_t>(number * batch_size);
 }
 
-/// Queues that all elements get their default value, however many they are: exact sums of a large
-/// picture with layers are more than an index can count. At most `most` per launch.
+/// Queues the assignment of the default value to all elements, in launches of at most `most`: a large
+/// picture with layers may have more exact sums than an index can count.
 template <class T, Executor E>
 void clear(E& executor, std::span<T> elements, std::size_t most = most_per_launch)
 {
@@ -83,8 +83,8 @@ void clear(E& executor, std::span<T> elements, std::size_t most = most_per_launc
     }
 }
 
-/// A Renderer on an executor whose kernels work on `memory`, and whose wait() returns when all that was
-/// queued is done.
+/// A Renderer on an executor whose kernels access `memory`, and whose wait() returns when all queued
+/// work is done.
 template <Executor E>
 class BatchRenderer : public Renderer {
 public:
@@ -108,7 +108,7 @@ private:
         clear(executor_, dropped_.all());
         std::uint64_t done = 0;
         const std::uint64_t all = std::uint64_t{pixels_} * options_.batch_size;
-        // Sample after sample of as many pixels as a launch takes, then the next pixels.
+        // All samples of as many pixels as a launch takes, then the next pixels.
         for (std::uint32_t pixel = 0; pixel < pixels_;) {
             const std::uint32_t width = std::min(launch_size_.get(), pixels_ - pixel);
             for (std::uint32_t sample = 0; sample < options_.batch_size;) {
@@ -160,7 +160,7 @@ private:
         options.max_edges = std::min(options.max_edges, most_edges);
         return options;
     }
-    /// One of all splats; with layers, one more for each strategy (s, 1).
+    /// One picture of all splats; with layers, one more for each strategy (s, 1).
     [[nodiscard]] std::size_t splat_pictures() const
     {
         return options_.strategies == images::StrategyPictures::none
@@ -194,7 +194,7 @@ private:
                                             launch.samples});
     }
 
-    /// The splats of picture i, see SplatTarget.
+    /// The splats of picture i; see SplatTarget.
     [[nodiscard]] images::Image splats(std::size_t picture) const
     {
         images::Image image(width_, height_);

@@ -6,7 +6,7 @@ namespace fast {
 
 namespace {
 
-/// One thread, which does nothing: that it runs at all shows that the machine code fits the device.
+/// An empty kernel: if it runs, the machine code fits the device.
 __global__ void do_nothing() {}
 
 /// CUDA counts versions as 1000 * major + 10 * minor.
@@ -22,7 +22,7 @@ Device no_device(cudaError_t reason)
                        ", no CUDA device found: " + cudaGetErrorString(reason)};
 }
 
-/// Of device 0; 0 if it does not say.
+/// An attribute of device 0; 0 if it is not available.
 int attribute(cudaDeviceAttr which)
 {
     int value = 0;
@@ -52,7 +52,7 @@ Device find_device()
     if (error == cudaSuccess) error = cudaDeviceSynchronize();
     if (error != cudaSuccess)
         return {false, description + ", cannot be used: " + cudaGetErrorString(error)};
-    // Two transfers per clock; the clock is in kHz.
+    // Two transfers per clock cycle; the clock rate is in kHz.
     const double clock = 1e3 * attribute(cudaDevAttrMemoryClockRate);
     const double bus_bytes = attribute(cudaDevAttrGlobalMemoryBusWidth) / 8.0;
     return {true, description, 2 * clock * bus_bytes,

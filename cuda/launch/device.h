@@ -1,6 +1,6 @@
 #pragma once
 
-// Which GPU, if any, this program can use.
+// The GPU, if any, that this program can use.
 
 #include <cstddef>
 #include <string>
@@ -8,14 +8,14 @@
 namespace fast {
 
 struct Device {
-    bool usable;                 // there is one, and it ran a kernel of ours
+    bool usable;                 // there is a device, and it ran one of our kernels
     std::string description;     // one line for a person: the device, or why there is none
-    double bytes_per_second = 0; // what its memory can move at most; 0: not known
-    std::size_t cache_bytes = 0; // of its last cache; 0: not known
+    double bytes_per_second = 0; // bandwidth of its memory; 0: unknown
+    std::size_t cache_bytes = 0; // size of its last-level cache; 0: unknown
 };
 
-/// Looks at the first CUDA device and runs an empty kernel on it. Raises no errors: a machine without a
-/// GPU is an ordinary machine.
+/// Queries the first CUDA device and runs an empty kernel on it. Throws nothing: a machine without a
+/// GPU is not an error.
 Device find_device();
 
 /// find_device().description: "NVIDIA H100 80GB HBM3, sm_90, driver for CUDA 13.0, 79 GiB", "built

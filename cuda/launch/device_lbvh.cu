@@ -19,7 +19,7 @@ namespace fast {
 
 namespace {
 
-/// A point of time on a stream.
+/// A CUDA event: a point in time on a stream.
 class Event {
 public:
     Event() { check(cudaEventCreate(&event_)); }

@@ -1,4 +1,4 @@
-// What stands in for device_lbvh.cu where there is no nvcc.
+// Replaces device_lbvh.cu in a build without nvcc.
 
 #include "cuda/launch/device_lbvh.h"
 

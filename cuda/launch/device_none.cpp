@@ -1,4 +1,4 @@
-// What stands in for device.cu where there is no nvcc.
+// Replaces device.cu in a build without nvcc.
 
 #include "cuda/launch/device.h"
 

@@ -7,7 +7,7 @@
 
 namespace fast {
 
-// In device_path.cu and its like.
+// Defined in device_path.cu, device_light.cu and device_bdpt.cu.
 extern template void launch_samples<Integrator::path>(CudaExecutor&, Needs, const SceneInMemory&,
                                                       const SampleJob&);
 extern template void launch_samples<Integrator::bdpt>(CudaExecutor&, Needs, const SceneInMemory&,
@@ -17,7 +17,7 @@ extern template void launch_samples<Integrator::light>(CudaExecutor&, Needs, con
 
 namespace {
 
-/// Says why, where there is none.
+/// Throws an exception with the reason if there is no usable device.
 struct UsableDevice {
     UsableDevice()
     {
@@ -26,7 +26,7 @@ struct UsableDevice {
     }
 };
 
-/// What a renderer on a GPU consists of; the order matters.
+/// The parts of a renderer on a GPU. The order of the members matters.
 struct DeviceParts {
     UsableDevice device;
     Stream stream;

@@ -1,4 +1,4 @@
-// What stands for device_renderer.cu where there is no nvcc.
+// Replaces device_renderer.cu in a build without nvcc.
 
 #include "cuda/launch/device.h"
 #include "cuda/launch/renderer.h"

@@ -1,6 +1,7 @@
 #pragma once
 
-// The kernels that are compiled for the threads of the host, in host_path.cpp and its like.
+// The kernels for the threads of the host, compiled in host_path.cpp, host_light.cpp and
+// host_bdpt.cpp.
 
 #include "cuda/launch/launch_samples.h"
 #include "cuda/parallel/threaded_executor.h"

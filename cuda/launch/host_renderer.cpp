@@ -5,13 +5,14 @@ namespace fast {
 
 namespace {
 
-/// Blocks of so few neighbours that no thread waits long for another at the end of a launch.
+/// Small blocks of neighbouring indices: at the end of a launch no thread waits long for another.
 constexpr std::uint32_t most_per_block = 32;
 
-/// Always as many samples at once: so that on one thread even sums of floats are the same every time.
+/// A constant number of samples per launch, so that on one thread even sums of floats are always the
+/// same.
 constexpr LaunchLimits limits{8192, 8192, std::size_t{1} << 30};
 
-/// What a renderer on the host consists of; the order matters.
+/// The parts of a renderer on the host. The order of the members matters.
 struct HostParts {
     explicit HostParts(unsigned threads) : executor(threads, most_per_block) {}
     HostMemory memory;

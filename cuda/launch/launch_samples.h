@@ -1,6 +1,6 @@
 #pragma once
 
-// From what a scene needs, known when the program runs, to the kernel that was compiled for it.
+// Chooses the compiled kernel for the needs of a scene, which are known only at run time.
 
 #include "cuda/scene/scene_in_memory.h"
 #include "cuda/transport/render_samples.h"
@@ -9,7 +9,7 @@
 
 namespace fast {
 
-/// All that a launch needs besides the scene.
+/// All data of a launch except the scene.
 struct SampleJob {
     PathOptions options;
     Launch launch;
@@ -18,7 +18,7 @@ struct SampleJob {
     int capacity;
 };
 
-/// Calls function.operator()<Needs>() for these needs.
+/// Calls function.operator()<Needs>() with these needs.
 template <class Function>
 void with_needs(Needs needs, const Function& function)
 {

@@ -1,7 +1,7 @@
 #pragma once
 
-// The fast path behind the one door (images/renderer.h), for code that does not want to know on which
-// device it runs.
+// The fast path as an images::Renderer (images/renderer.h), for code that does not depend on the
+// device.
 
 #include "cuda/transport/needs.h"
 #include "images/render_options.h"
@@ -12,28 +12,29 @@
 
 namespace fast {
 
-/// No path is longer, whatever is asked for.
+/// Upper limit on the number of edges of a path; a larger max_edges is reduced to it.
 constexpr int most_edges = 1 << 20;
 
-/// A scene made ready in the memory of a device. A batch throws std::invalid_argument where a pixel
-/// would get more than 2^32 samples. `progress` and `stop` of its monitor are called from the thread
-/// that renders. Splats are sums of floats, which depend on the order of threads, unless
-/// RenderOptions::deterministic.
+/// A renderer with its scene in the memory of a device. A batch throws std::invalid_argument if a
+/// pixel would get more than 2^32 samples. `progress` and `stop` of its monitor are called from the
+/// thread that renders. Splats are summed as floats, and depend on the order of threads, unless
+/// RenderOptions::deterministic is set.
 class Renderer : public images::Renderer {
 public:
-    /// What the kernels that render can do: what the scene needs, and `at_least`.
+    /// The abilities of the kernels that render: the needs of the scene, and `at_least`.
     [[nodiscard]] virtual Needs needs() const = 0;
 };
 
 /// Renders on `threads` threads of the host. The scene must have a camera; it is copied. `at_least`:
-/// kernels that can do this besides, to measure what it costs. Throws std::invalid_argument for
-/// coordinates that are not finite as floats, for lights that floats cannot hold (scene_arrays.h), for a
-/// picture of no pixels or of 2^32 and more, and for options that contradict each other; OutOfMemory.
+/// further abilities of the kernels, to measure their cost. Throws std::invalid_argument for
+/// coordinates that are not finite as floats, for lights that floats cannot represent
+/// (scene_arrays.h), for a picture of 0 pixels or of 2^32 or more, and for options that contradict
+/// each other; OutOfMemory.
 std::unique_ptr<Renderer> host_renderer(const scenes::Scene& scene, int width, int height,
                                         const images::RenderOptions& options, unsigned threads,
                                         Needs at_least = {});
 
-/// The same on the first GPU. Throws std::runtime_error where there is none or for errors of CUDA.
+/// The same on the first GPU. Throws std::runtime_error if there is no GPU, and for errors of CUDA.
 std::unique_ptr<Renderer> device_renderer(const scenes::Scene& scene, int width, int height,
                                           const images::RenderOptions& options, Needs at_least = {});
 

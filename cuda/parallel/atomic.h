@@ -1,6 +1,6 @@
 #pragma once
 
-// Atomic operations, named by what they are for. The only place where device and host code differ.
+// Atomic operations, named by their purpose. This is the only place where device and host code differ.
 
 #include "cuda/parallel/host_device.h"
 
@@ -13,17 +13,19 @@
 
 namespace fast {
 
-/// Host only: what a thread calls before each of its atomic operations, if anything. Tests set it to
-/// decide there which thread goes on.
+/// Host only: a function that a thread calls before each of its atomic operations, or null. Tests use
+/// it to decide there which thread goes on.
 inline thread_local void (*schedule_point)() = nullptr;
 
-/// Adds one to `counter` and returns what it was before: the first to arrive gets 0, the second 1.
+/// Adds one to `counter` and returns its previous value: the first thread to arrive gets 0, the second
+/// 1.
 ///
-/// Acquire and release in one step. Of two threads that arrive, whatever the first wrote before it
-/// arrived is visible to the second once it has: the second's read of the counter reads the value that
-/// the first's wrote (read-modify-write operations on one variable have a single total order), so the
-/// first's release synchronises with the second's acquire [C++20, intro.races; PTX ISA, memory
-/// consistency model]. With either half missing the second may go on with data that are not there yet.
+/// Acquire and release in one operation. Everything that the first of two threads wrote before it
+/// arrived is visible to the second after the second has arrived: the second's read of the counter
+/// reads the value that the first wrote (read-modify-write operations on one variable have a single
+/// total order), so the first's release synchronises with the second's acquire [C++20, intro.races;
+/// PTX ISA, memory consistency model]. If either half is missing, the second thread may read data
+/// before they are written.
 HD inline std::uint32_t arrive(std::uint32_t& counter)
 {
 #if defined(__CUDA_ARCH__)
@@ -35,8 +37,8 @@ HD inline std::uint32_t arrive(std::uint32_t& counter)
 #endif
 }
 
-/// Adds `term` to `sum`, and orders nothing else. Sums of floats depend on the order of their terms, so
-/// threads that meet here may differ from run to run in the last bits.
+/// Adds `term` to `sum`, without ordering any other access. Sums of floats depend on the order of
+/// their terms, so concurrent additions may differ from run to run in the last bits.
 HD inline void add(float& sum, float term)
 {
 #if defined(__CUDA_ARCH__)
@@ -59,7 +61,7 @@ HD inline void add(std::uint64_t& sum, std::uint64_t term)
 #endif
 }
 
-/// Makes `least` the smaller of itself and `value`, and orders nothing else.
+/// Replaces `least` by `value` if that is smaller, without ordering any other access.
 HD inline void take_least(std::uint64_t& least, std::uint64_t value)
 {
 #if defined(__CUDA_ARCH__)

@@ -1,6 +1,6 @@
 #pragma once
 
-// An array in some memory.
+// An array in the memory of the host or of a device.
 
 #include "cuda/parallel/memory.h"
 
@@ -12,7 +12,7 @@
 
 namespace fast {
 
-/// Owns `size()` elements with undefined contents, until they are written. The memory must outlive it.
+/// Owns `size()` elements, undefined until they are written. The memory must outlive the buffer.
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -46,21 +46,21 @@ public:
     Buffer& operator=(const Buffer&) = delete;
 
     [[nodiscard]] std::size_t size() const { return size_; }
-    /// For kernels of the executor that the memory belongs to.
+    /// All elements, for kernels of the executor that the memory belongs to.
     [[nodiscard]] std::span<T> all() { return {data_, size_}; }
     [[nodiscard]] std::span<const T> all() const { return {data_, size_}; }
     /// The first `count` elements.
     [[nodiscard]] std::span<T> first(std::size_t count) { return all().first(count); }
     [[nodiscard]] std::span<const T> first(std::size_t count) const { return all().first(count); }
 
-    /// The first contents.size() elements get these values.
+    /// Writes `contents` to the first contents.size() elements.
     void write(std::span<const T> contents)
     {
         memory_->write(first(contents.size()).data(), contents.data(), contents.size_bytes());
     }
-    /// The first `count` elements, on the host.
+    /// Copies the first `count` elements to the host.
     [[nodiscard]] std::vector<T> read(std::size_t count) const { return read(0, count); }
-    /// `count` elements from number `begin` on, on the host.
+    /// Copies `count` elements from number `begin` on to the host.
     [[nodiscard]] std::vector<T> read(std::size_t begin, std::size_t count) const
     {
         std::vector<T> contents(count);

@@ -13,7 +13,7 @@ namespace fast {
 inline void check(cudaError_t status)
 {
     if (status == cudaSuccess) return;
-    cudaGetLastError(); // an error that can be recovered from is not reported again by the next call
+    cudaGetLastError(); // clears the error, so that the next call does not report it again
     throw std::runtime_error(std::string("CUDA: ") + cudaGetErrorString(status));
 }
 

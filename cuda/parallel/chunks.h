@@ -1,6 +1,6 @@
 #pragma once
 
-// A task over many elements divided into few pieces, one after the other.
+// The division of many elements into a few contiguous pieces.
 
 #include "cuda/parallel/host_device.h"
 
@@ -8,7 +8,7 @@
 
 namespace fast {
 
-/// Elements 0 to count - 1 in `chunks` (at least 1) pieces of equal size, but for the last ones.
+/// Elements 0 to count - 1 in `chunks` (at least 1) pieces of equal size, except for the last ones.
 struct Chunks {
     std::uint32_t count;
     std::uint32_t chunks;

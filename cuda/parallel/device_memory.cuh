@@ -7,15 +7,15 @@
 
 namespace fast {
 
-/// Blocks are given out and taken back in the order of a stream: what is queued before a release may
-/// still use the block.
+/// Blocks are allocated and released in the order of a stream: work that is queued before a release
+/// may still use the block.
 class DeviceMemory : public Memory {
 public:
     explicit DeviceMemory(cudaStream_t stream) : stream_(stream) {}
 
     void release(void* block) noexcept override
     {
-        cudaFreeAsync(block, stream_); // fails only where the device is lost, and then all is
+        cudaFreeAsync(block, stream_); // fails only if the device is lost
     }
     void write(void* to, const void* from, std::size_t bytes) override
     {
@@ -37,7 +37,7 @@ private:
             check(status);
             return block;
         }
-        cudaGetLastError(); // taken note of: the next call shall not report it again
+        cudaGetLastError(); // clears the error, so that the next call does not report it again
         return nullptr;
     }
     [[nodiscard]] std::size_t free_bytes() const override

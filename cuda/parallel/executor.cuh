@@ -11,7 +11,7 @@ namespace fast {
 
 constexpr std::uint32_t block_size = 256;
 
-/// Two blocks fit on a multiprocessor at least: no kernel may take more than 128 registers.
+/// At least two blocks fit on a multiprocessor: no kernel may use more than 128 registers.
 template <Kernel K>
 __global__ void __launch_bounds__(block_size, 2) run_kernel(K kernel, std::uint32_t count)
 {
@@ -19,7 +19,7 @@ __global__ void __launch_bounds__(block_size, 2) run_kernel(K kernel, std::uint3
     if (index < count) kernel(index);
 }
 
-/// One device thread per index, on a stream: launches are queued, and happen in order.
+/// One device thread per index, on a stream: launches are queued and run in order.
 class CudaExecutor {
 public:
     explicit CudaExecutor(cudaStream_t stream) : stream_(stream) {}
@@ -27,11 +27,11 @@ public:
     template <Kernel K>
     void operator()(std::uint32_t count, const K& kernel) const
     {
-        if (count == 0) return; // CUDA calls a grid without blocks an error
+        if (count == 0) return; // a grid without blocks is an error in CUDA
         run_kernel<<<(count - 1) / block_size + 1, block_size, 0, stream_>>>(kernel, count);
         check(cudaGetLastError());
     }
-    /// Returns when all that was queued is done.
+    /// Returns when all queued work is done.
     void wait() const { check(cudaStreamSynchronize(stream_)); }
     [[nodiscard]] cudaStream_t stream() const { return stream_; }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-// A kernel is a function object of one index. It carries what it works on as members (spans, mostly),
-// shares nothing with the kernel of another index but what those refer to, and never waits for another.
-// So any order of the indices is a legal schedule, at once or one by one, and to execute a kernel is to
-// choose a schedule. Every executor is called as executor(count, kernel), for the indices 0 to count
-// - 1.
+// A kernel is a function object of one index. It carries its data as members (mostly spans), shares
+// nothing with the kernel of another index except the data that those refer to, and never waits for
+// another. So any order of the indices is a legal schedule, concurrent or one by one, and an executor
+// is the choice of a schedule. Every executor is called as executor(count, kernel), for the indices 0
+// to count - 1.
 
 #include <concepts>
 #include <cstdint>
@@ -27,15 +27,14 @@ struct AnyKernel {
 
 } // namespace detail
 
-/// What runs kernels. Launches on one executor happen one after the other.
+/// An object that runs kernels. Launches on one executor run one after the other.
 template <class E>
 concept Executor = requires(E& executor)
 {
     executor(std::uint32_t{}, detail::AnyKernel{});
 };
 
-/// On the host. `width()` is how many indices it is worth to divide a task into that could as well be
-/// done by one.
+/// An executor on the host. `width()` is the number of parts into which it is useful to divide a task.
 template <class E>
 concept HostExecutor = Executor<E> && requires(const E& idle)
 {
@@ -44,7 +43,8 @@ concept HostExecutor = Executor<E> && requires(const E& idle)
         } -> std::convertible_to<std::uint32_t>;
 };
 
-/// Runs the indices in order on the calling thread. What goes wrong here is no matter of concurrency.
+/// Runs the indices in order on the calling thread. An error that occurs here is not one of
+/// concurrency.
 class SerialExecutor {
 public:
     template <Kernel K>

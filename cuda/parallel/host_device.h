@@ -1,8 +1,8 @@
 #pragma once
 
-// The macros of the fast path. HD marks what runs on the host and on the device alike; without nvcc it
-// says nothing. SELDOM marks what ordinary scenes do not need: it is not inlined, so that it takes no
-// registers and no room in the loops that might call it.
+// The macros of the fast path. HD marks a function for both the host and the device; without nvcc it
+// is empty. SELDOM marks a function that ordinary scenes do not need: it is not inlined, so that it
+// takes no registers and no space in the loops that may call it.
 
 #if defined(__CUDACC__)
 #define HD __host__ __device__

@@ -21,7 +21,7 @@ constexpr std::uint32_t not_ordered = 0xffff'ffff;
 /// Whether four lanes take as long as one.
 constexpr bool lanes_at_once = false;
 
-struct alignas(16) Lanes { // in memory the same as the other
+struct alignas(16) Lanes { // same layout in memory as the host's Lanes
     float lane[4];
 
     HD float operator[](int i) const { return lane[i]; }
@@ -48,7 +48,7 @@ HD inline Lanes operator*(const Lanes& a, const Lanes& b)
     return {{a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]}};
 }
 
-/// a where a > b, else b: b where one of them is NaN.
+/// a where a > b, else b; so b where one of them is NaN.
 HD inline Lanes larger(const Lanes& a, const Lanes& b)
 {
     Lanes result;
@@ -56,7 +56,7 @@ HD inline Lanes larger(const Lanes& a, const Lanes& b)
     return result;
 }
 
-/// a where a < b, else b: b where one of them is NaN.
+/// a where a < b, else b; so b where one of them is NaN.
 HD inline Lanes smaller(const Lanes& a, const Lanes& b)
 {
     Lanes result;
@@ -98,13 +98,13 @@ inline Lanes all_lanes(float x)
     return Lanes{x, x, x, x};
 }
 
-/// a where a > b, else b: b where one of them is NaN.
+/// a where a > b, else b; so b where one of them is NaN.
 inline Lanes larger(const Lanes& a, const Lanes& b)
 {
     return a > b ? a : b;
 }
 
-/// a where a < b, else b: b where one of them is NaN.
+/// a where a < b, else b; so b where one of them is NaN.
 inline Lanes smaller(const Lanes& a, const Lanes& b)
 {
     return a < b ? a : b;
@@ -112,10 +112,10 @@ inline Lanes smaller(const Lanes& a, const Lanes& b)
 
 using Words = std::uint32_t __attribute__((vector_size(16)));
 
-/// Keys to sort lanes by `near` in ascending order. The key of a lane is the bits of its `near` with the
-/// lane's number in the lowest two bits; not_ordered where near > far. The bits of floats >= 0 sort like
-/// the floats: `near` must be >= 0, and neither may be NaN. With those two bits cleared, a key is a
-/// float that equals `near` or lies at most 3 ulps below it.
+/// Keys that sort lanes by `near` in ascending order. The key of a lane is the bits of its `near` with
+/// the lane's number in the lowest two bits; not_ordered where near > far. The bits of floats >= 0
+/// sort like the floats: `near` must be >= 0, and neither argument may be NaN. With those two bits
+/// cleared, a key is a float that equals `near` or lies at most 3 ulps below it.
 inline void sort_keys(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[4])
 {
     const Words named = (std::bit_cast<Words>(near) & ~3u) | Words{0, 1, 2, 3};
@@ -123,7 +123,7 @@ inline void sort_keys(const Lanes& near, const Lanes& far, std::uint32_t (&keys)
     std::memcpy(keys, &sorted, sizeof keys);
 }
 
-/// Bit i is set where a[i] >= 0: not where it is NaN.
+/// Bit i is set where a[i] >= 0; not where a[i] is NaN.
 inline std::uint32_t non_negative_mask(const Lanes& a)
 {
     const Words bits = std::bit_cast<Words>(a >= Lanes{0, 0, 0, 0}) & Words{1, 2, 4, 8};

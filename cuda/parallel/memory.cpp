@@ -11,11 +11,11 @@ namespace fast {
 
 namespace {
 
-/// A cache line: no two blocks share one, and no node of a tree straddles two.
+/// A cache line: no two blocks share one, and no node of a tree extends over two.
 constexpr std::size_t cache_line = 64;
 
-/// What a block of several of them is better made of than of pages of 4096 bytes: rays jump about in a
-/// tree, and the processor remembers the addresses of few pages.
+/// Large blocks use pages of this size instead of 4096 bytes: rays access a tree in no regular order,
+/// and the processor caches the addresses of only a few pages.
 constexpr std::size_t large_page = std::size_t{1} << 21;
 
 } // namespace
@@ -38,7 +38,7 @@ void* HostMemory::try_allocate(std::size_t bytes)
     if (bytes > std::numeric_limits<std::size_t>::max() - unit) return nullptr;
     const std::size_t whole = (bytes + unit - 1) / unit * unit;
     void* const block = std::aligned_alloc(unit, whole);
-    if (block != nullptr && unit == large_page) madvise(block, whole, MADV_HUGEPAGE); // a wish: may fail
+    if (block != nullptr && unit == large_page) madvise(block, whole, MADV_HUGEPAGE); // may fail
     return block;
 }
 

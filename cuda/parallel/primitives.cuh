@@ -1,7 +1,7 @@
 #pragma once
 
-// What reduce.h and radix_sort.h do, on a GPU: by CUB, which knows the hardware. Slow to compile, so
-// that one .cu file alone includes it.
+// The functions of reduce.h and radix_sort.h on a GPU, by CUB, which is optimised for the hardware.
+// Slow to compile, so only one .cu file includes it.
 
 #include "cuda/parallel/executor.cuh"
 #include "cuda/parallel/radix_sort.h"

@@ -1,10 +1,9 @@
 #pragma once
 
 // A stable sort of pairs by the bits of their keys, digit by digit, the least significant first. On a
-// device CUB does it (primitives.cuh); this is for the executors of
-// the host. Three short kernels per digit,
-// so that it is looked at by the same executors as everything else, where std::sort(std::execution::par)
-// would bring a thread pool of its own, compare whole keys, and not be stable.
+// device CUB does it (primitives.cuh); this file is for the executors of the host. It launches three
+// short kernels per digit, so that the same executors test it as test everything else.
+// std::sort(std::execution::par) would use its own thread pool, compare whole keys, and not be stable.
 
 #include "cuda/parallel/chunks.h"
 #include "cuda/parallel/executor.h"
@@ -15,7 +14,7 @@
 
 namespace fast {
 
-/// An array that is valid, and room for as many elements beside it.
+/// An array with valid contents, and another of the same size for temporary use.
 template <class T>
 struct Alternating {
     std::span<T> current;
@@ -37,7 +36,7 @@ struct Digit {
     }
 };
 
-/// Kernel over chunks: how often each value of the digit occurs among the keys of a chunk.
+/// Kernel over chunks: counts how often each value of the digit occurs among the keys of a chunk.
 template <class Key>
 struct CountDigits {
     Chunks chunks;
@@ -54,8 +53,8 @@ struct CountDigits {
     }
 };
 
-/// Kernel of one index: turns counts into where the first key of each value and chunk goes. Smaller
-/// values go first; of one value, those of earlier chunks.
+/// Kernel of one index: turns the counts into the places of the first key of each value and chunk.
+/// Smaller values go first; within one value, earlier chunks go first.
 struct PlaceDigits {
     std::uint32_t chunks;
     std::uint32_t values;
@@ -94,19 +93,19 @@ struct MoveByDigit {
     }
 };
 
-/// Of at most this many bits: the counters of one digit stay in the first-level cache.
+/// The largest number of bits of a digit: the counters of one digit fit into the first-level cache.
 constexpr int most_digit_bits = 11;
 
-/// How many 32-bit words of scratch memory `radix_sort` needs for `count` pairs.
+/// The number of 32-bit words of scratch memory that `radix_sort` needs for `count` pairs.
 template <class Key, class Value, HostExecutor E>
 std::size_t sort_scratch(const E& executor, std::uint32_t /*count*/, int /*bits*/)
 {
     return std::size_t{executor.width()} << most_digit_bits;
 }
 
-/// Sorts the pairs (keys.current[i], values.current[i]) by the lowest `bits` bits of their keys, which
-/// must be all that are used; equal keys keep their order. The result is in `current` again, but that
-/// may be the array that was `other` before.
+/// Sorts the pairs (keys.current[i], values.current[i]) by the lowest `bits` bits of their keys; all
+/// higher bits must be 0. Equal keys keep their order. The result is in `current`, which may then be
+/// the array that was `other` before.
 template <HostExecutor E, class Key, class Value>
 void radix_sort(E& executor, Alternating<Key>& keys, Alternating<Value>& values, int bits,
                 std::span<std::uint32_t> scratch)

@@ -1,7 +1,7 @@
 #pragma once
 
-// One value out of many. On a device CUB does it (primitives.cuh); this is for the executors of the
-// host.
+// Reduces many values to one. On a device CUB does it (primitives.cuh); this file is for the executors
+// of the host.
 
 #include "cuda/parallel/chunks.h"
 #include "cuda/parallel/executor.h"
@@ -45,7 +45,7 @@ struct ReducePartial {
     }
 };
 
-/// How many elements of scratch memory `map_reduce` needs with the same arguments.
+/// The number of elements of scratch memory that `map_reduce` needs with the same arguments.
 template <class T, HostExecutor E, class Map, class Combine>
 std::size_t reduce_scratch(const E& executor, std::uint32_t /*count*/, const Map& /*map*/,
                            const Combine& /*combine*/, const T& /*neutral*/)
@@ -53,8 +53,9 @@ std::size_t reduce_scratch(const E& executor, std::uint32_t /*count*/, const Map
     return executor.width();
 }
 
-/// result[0] = combine of map(0), ..., map(count - 1) and `neutral`. `combine` must be associative and
-/// commutative without rounding, as minimum and maximum are: how the elements are grouped is left open.
+/// result[0] = the combination of map(0), ..., map(count - 1) and `neutral`. `combine` must be
+/// associative and commutative without rounding, like minimum and maximum, because the grouping of the
+/// elements is not specified.
 template <class T, HostExecutor E, class Map, class Combine>
 void map_reduce(E& executor, std::uint32_t count, const Map& map, const Combine& combine,
                 const T& neutral, std::span<T> scratch, std::span<T> result)

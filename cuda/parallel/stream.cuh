@@ -1,6 +1,6 @@
 #pragma once
 
-// A CUDA stream that ends with its owner.
+// A CUDA stream that is destroyed with its owner.
 
 #include "cuda/parallel/check.cuh"
 

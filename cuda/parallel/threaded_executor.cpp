@@ -21,11 +21,12 @@ void ThreadedExecutor::run(const Work& work)
 {
     work_ = &work;
     busy_.store(width() - 1, std::memory_order_relaxed);
-    // Publishes `work_`, `busy_` and all that the caller has written so far.
+    // Publishes `work_`, `busy_` and everything that the caller has written so far.
     round_.fetch_add(1, std::memory_order_release);
     round_.notify_all();
     work(0);
-    // Reading what the last worker wrote, and the release sequence that it ends, sees all they wrote.
+    // This load reads the value of the last worker, which ends a release sequence over all workers. So
+    // everything that they wrote is visible here.
     while (const std::uint32_t busy = busy_.load(std::memory_order_acquire)) busy_.wait(busy);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Kernels on the threads of the host.
+// Runs kernels on threads of the host.
 
 #include "cuda/parallel/executor.h"
 
@@ -13,9 +13,10 @@
 
 namespace fast {
 
-/// Runs every kernel on the same `threads` threads (the calling one is the first of them), which sleep
-/// in between. Blocks of at most `most_per_block` neighbouring indices are dealt to them in turn: with
-/// blocks of one, neighbours always meet on different threads. To be called from one thread at a time.
+/// Runs every kernel on the same `threads` threads, which sleep in between; the calling thread is the
+/// first of them. Blocks of at most `most_per_block` neighbouring indices are given to the threads in
+/// turn: with blocks of one, neighbours always run on different threads. Must be called from one
+/// thread at a time.
 class ThreadedExecutor {
 public:
     explicit ThreadedExecutor(std::uint32_t threads, std::uint32_t most_per_block = 4096);
@@ -23,7 +24,7 @@ public:
     ThreadedExecutor(const ThreadedExecutor&) = delete;
     ThreadedExecutor& operator=(const ThreadedExecutor&) = delete;
 
-    /// Returns when all indices are done; everything they wrote is visible to the caller.
+    /// Returns when all indices are done; everything that they wrote is visible to the caller.
     template <Kernel K>
     void operator()(std::uint32_t count, const K& kernel)
     {
@@ -38,7 +39,7 @@ public:
         };
         run(std::ref(work));
     }
-    /// Nothing is ever queued here.
+    /// Returns at once: every launch is complete when it returns.
     void wait() const {}
     [[nodiscard]] std::uint32_t width() const { return static_cast<std::uint32_t>(workers_.size()) + 1; }
 
@@ -51,9 +52,9 @@ private:
 
     std::uint32_t most_per_block_;
     std::vector<std::thread> workers_;
-    const Work* work_ = nullptr; // of the present round; none: the workers shall end
+    const Work* work_ = nullptr; // of the current round; null: the workers shall end
     std::atomic<std::uint32_t> round_ = 0;
-    std::atomic<std::uint32_t> busy_ = 0; // workers that have not finished the present round
+    std::atomic<std::uint32_t> busy_ = 0; // workers that have not finished the current round
 };
 
 } // namespace fast

@@ -6,7 +6,7 @@
 
 #if defined(__CUDACC__)
 #pragma nv_diagnostic push
-#pragma nv_diag_suppress 20012 // GLM marks defaulted constructors for the device, which says nothing
+#pragma nv_diag_suppress 20012 // GLM marks defaulted constructors for the device, with no effect
 #endif
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-// A scene in the memory that kernels work on.
+// A scene in the memory that kernels access.
 
 #include "cuda/parallel/buffer.h"
 #include "cuda/scene/scene_arrays.h"

@@ -1,8 +1,8 @@
 #pragma once
 
-// The pinhole camera: from a point of the film to a ray and back, and what the film measures. W_e and
-// its cosines are those of docs/bdpt.md, section 1. Only W_e cos is ever needed here, which is the
-// density of eye walks: pdf_solid_angle.
+// The pinhole camera: from a point of the film to a ray and back, and the importance of the film. W_e
+// and its cosines are those of docs/bdpt.md, section 1. Only the product W_e cos is needed here. It is
+// the density of eye walks: pdf_solid_angle.
 
 #include "cuda/parallel/vec.h"
 
@@ -10,7 +10,7 @@ namespace fast {
 
 struct Camera {
     Vec3 eye;
-    Vec3 right, up, backward; // orthonormal; it looks along -backward
+    Vec3 right, up, backward; // orthonormal; the camera looks along -backward
     float pixel_size;         // on an image plane at distance 1
     float film_area;          // of all pixels there
     std::uint32_t width, height;
@@ -25,7 +25,8 @@ struct Camera {
     /// Cosine between the unit direction `w` from the eye and the viewing direction.
     [[nodiscard]] HD float cosine(const Vec3& w) const { return -glm::dot(w, backward); }
 
-    /// Whether the picture shows what is in direction `w` from the eye; sets the pixel that does.
+    /// Whether direction `w` from the eye is inside the picture; if so, sets `pixel` to the pixel that
+    /// shows it.
     [[nodiscard]] HD bool project(const Vec3& w, std::uint32_t& pixel) const
     {
         const float ahead = cosine(w);
@@ -39,7 +40,7 @@ struct Camera {
         return true;
     }
 
-    /// The density with which eye walks over the whole film start in such a direction.
+    /// The density (sr^-1) with which eye walks over the whole film start in such a direction.
     [[nodiscard]] HD float pdf_solid_angle(float cosine_w) const
     {
         return 1.0f / (film_area * cosine_w * cosine_w * cosine_w);

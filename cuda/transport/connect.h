@@ -1,13 +1,13 @@
 #pragma once
 
-// The four families of strategies: how s vertices of a light walk and t of an eye walk become a path.
-// Each contribution goes to a sink with its strategy (s, t), its value (radiance, W m^-2 sr^-1) as if
-// that strategy were the only one, and its weight (mis_weight.h).
+// The four families of strategies that join s vertices of a light walk and t vertices of an eye walk
+// into a path. Each contribution goes to a sink with its strategy (s, t), its value (radiance, W m^-2
+// sr^-1) as if that strategy were the only one, and its weight (mis_weight.h).
 //
-//   strategy                            found by
-//   emission_hit      s = 0,  t >= 2    the eye walk meets a light source
+//   strategy                            the path is found by
+//   emission_hit      s = 0,  t >= 2    the eye walk that hits a light source
 //   next_event        s = 1,  t >= 2    an eye vertex and a fresh point of an emitter
-//   light_image       s >= 1, t = 1     a light vertex seen from the eye; falls on any pixel
+//   light_image       s >= 1, t = 1     a light vertex seen from the eye; goes to any pixel
 //   inner_connection  s >= 2, t >= 2    an eye vertex and a light vertex
 
 #include "cuda/transport/emitter.h"
@@ -30,17 +30,17 @@ struct EyeVertex {
     [[nodiscard]] HD float bracket(int s) const { return brackets[glm::min(s, 5) - 1]; }
 };
 
-/// Whether nothing stands between two places off their surfaces.
+/// Whether no surface lies between two points that have been moved off their surfaces.
 template <Needs needs>
 HD bool visible(const SceneView<needs>& scene, const Vec3& from, const Vec3& to)
 {
     return !occluded(scene.geometry, {from, 1.0f, to - from});
 }
 
-/// The same, with one ray from each place. The end of a segment may lie beyond another surface close to
-/// its own; the beginning of a ray does not (clearance.h). Each ray goes past the middle, since a
-/// surface at its end does not stop it. `position`: of the surface that `a` has left; `d`: from there to
-/// that of b.
+/// The same, with one ray from each point. The end of a segment may lie beyond another surface that is
+/// close to its own surface; the start of a ray does not (clearance.h). Each ray continues past the
+/// middle, since a surface at its end does not stop it. `position`: a point on the surface that `a`
+/// has left. `d`: the vector from there to the corresponding point of b.
 template <Needs needs>
 SELDOM HD bool visible_from_both(const SceneView<needs>& scene, const Vec3& a, const Vec3& b,
                                  const Vec3& position, const Vec3& d)
@@ -48,16 +48,16 @@ SELDOM HD bool visible_from_both(const SceneView<needs>& scene, const Vec3& a, c
     return visible(scene, a, position + 0.75f * d) && visible(scene, b, position + 0.25f * d);
 }
 
-/// s = 0: z_{t-1} of the eye walk is on `emitter`, on the side that emits. `pdf_fwd`: with which the
-/// walk made it, per area or, of the environment, per solid angle. `pdf_rev_direction`: pdf_direction of
-/// `emitter` (emitter.h) towards z_{t-2}. `alpha`, `previous_joinable` and `sums` are the walk's at
-/// z_{t-1}.
+/// s = 0: z_{t-1} of the eye walk is on `emitter`, on the side that emits. `pdf_fwd`: the density of
+/// z_{t-1} in the eye walk, per area or, for the environment, per solid angle. `pdf_rev_direction`:
+/// pdf_direction of `emitter` (emitter.h) towards z_{t-2}. `alpha`, `previous_joinable` and `sums` are
+/// those of the walk at z_{t-1}.
 template <Needs needs, Integrator integrator, class Sink>
 HD void emission_hit(const PathOptions& options, const Emitter& emitter, int t, const Rgb& alpha,
                      float pdf_fwd, float pdf_rev_direction, bool previous_joinable,
                      const RunningSums& sums, Sink& sink)
 {
-    // For a light walk z_{t-1} would be y_0.
+    // In a light walk z_{t-1} would be y_0.
     const float pdf_position = pdf_emission_position<needs>(emitter);
     float weight = 0.0f;
     if constexpr (integrator == Integrator::path) {
@@ -105,8 +105,8 @@ HD void next_event(const SceneView<needs>& scene, const PathOptions& options, co
 }
 
 /// t = 1: y_{s-1}, at `point`, is joined to the pinhole. `facing`: its normal on the side that sends
-/// light. `alpha`: its weight with what it sends to the eye, cosine excluded. `pdf_area`, `bracket`: of
-/// y_{s-1}, as in SubpathEnd.
+/// light. `alpha`: its weight times its emission or BSDF towards the eye, without the cosine.
+/// `pdf_area`, `bracket`: of y_{s-1}, as in SubpathEnd.
 template <Needs needs, Integrator integrator, class Sink>
 HD void light_image(const SceneView<needs>& scene, const PathOptions& options, int s,
                     const SurfacePoint& point, const Vec3& facing, float pdf_area, float bracket,
@@ -125,7 +125,8 @@ HD void light_image(const SceneView<needs>& scene, const PathOptions& options, i
                  leave_end(scene, scene.camera.eye, scene.eye_contacts, -w,
                            distance2 * std::sqrt(inverse_distance2))))
         return;
-    // The density of y_{s-1} for the eye walk; and the measurement, since W_e cos is that density.
+    // The density of y_{s-1} in the eye walk. It is also the measurement, since W_e cos is that
+    // density.
     const float pdf_rev_area =
         to_area(scene.camera.pdf_solid_angle(scene.camera.cosine(-w)), cosine, inverse_distance2);
     const float weight = integrator == Integrator::light
@@ -134,7 +135,7 @@ HD void light_image(const SceneView<needs>& scene, const PathOptions& options, i
     sink.splat(pixel, s, alpha * pdf_rev_area, weight);
 }
 
-/// s = t = 1 for the environment: its y_0 is the direction `towards`, which was drawn with density
+/// s = t = 1 for the environment: its y_0 is the direction `towards`, which was sampled with density
 /// `pdf_solid_angle`. `alpha`: radiance over that density.
 template <Needs needs, Integrator integrator, class Sink>
 HD void light_image_of_infinity(const SceneView<needs>& scene, const PathOptions& options,
@@ -158,7 +159,7 @@ template <Needs needs, class Sink>
 HD void inner_connection(const SceneView<needs>& scene, const PathOptions& options, int s,
                          const LightVertex& y, const EyeVertex& z, Sink& sink)
 {
-    if (is_black(y.alpha)) return; // then nothing else of y was ever written
+    if (is_black(y.alpha)) return; // then no other member of y was ever written
     const Vec3 d = y.position - z.point.position;
     const float distance2 = glm::dot(d, d);
     const float inverse_distance2 = 1.0f / distance2;
@@ -177,8 +178,8 @@ HD void inner_connection(const SceneView<needs>& scene, const PathOptions& optio
         const float clearance = y.clearance + clearance_per_length * distance2 * to_unit;
         if (!visible(scene, from, y.position + clearance * y.facing)) return;
     }
-    // Per projected solid angle at one end to per area at the other: both cosines, over squared
-    // distance.
+    // Converts a density per projected solid angle at one end to one per area at the other: both
+    // cosines, over the squared distance.
     const float pdf_rev_area_y = z.pdf_projected * geometry;
     const float pdf_rev_area_z = y.pdf_projected * geometry;
     sink.add(s, z.t, value,

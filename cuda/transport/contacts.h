@@ -1,15 +1,16 @@
 #pragma once
 
-// Surfaces that coincide, and the eye, point and spot lights on surfaces: what rounding cannot decide is
-// decided by the rules of scenes/contacts.h. Both cost a test of a count where a scene has none.
+// Surfaces that coincide, and an eye, point or spot light that lies on a surface: where rounding
+// cannot decide, the rules of scenes/contacts.h do. In a scene without them, each costs one test of a
+// count.
 
 #include "cuda/transport/surface_point.h"
 
 namespace fast {
 
-/// Where a ray that leaves an end of a path in `direction` begins: beyond the surfaces that the end lies
-/// on, so that it does not meet them; and where a segment of that `length` ends that comes to it from
-/// there.
+/// The start of a ray that leaves an end of a path in `direction`: beyond the surfaces that the end
+/// lies on, so that the ray does not hit them. It is also the end of a segment of that `length` that
+/// comes to the path end from there.
 template <Needs needs>
 HD Vec3 leave_end(const SceneView<needs>& scene, const Vec3& position, const EndContacts& contacts,
                   const Vec3& direction, float length = 0.0f)
@@ -23,7 +24,8 @@ HD Vec3 leave_end(const SceneView<needs>& scene, const Vec3& position, const End
     return origin;
 }
 
-/// Whether the end lies on that triangle: nothing passes between the end and a point of it.
+/// Whether the path end lies on that triangle: no light passes between the end and a point of the
+/// triangle.
 template <Needs needs>
 HD bool lies_on(const SceneView<needs>& scene, const EndContacts& contacts, std::uint32_t primitive)
 {
@@ -32,7 +34,7 @@ HD bool lies_on(const SceneView<needs>& scene, const EndContacts& contacts, std:
     return false;
 }
 
-/// The rank of a surface of that material, see scenes::meeting_rank. `from_front`: the ray comes from
+/// The rank of a surface of that material; see scenes::meeting_rank. `from_front`: the ray comes from
 /// the side of the surface's normal.
 HD inline std::uint32_t meeting_rank(const Material& material, bool from_front)
 {
@@ -40,9 +42,9 @@ HD inline std::uint32_t meeting_rank(const Material& material, bool from_front)
     return material.kind == MaterialKind::glass ? 2 : 1;
 }
 
-/// Of the surfaces that coincide where `ray` has `hit`, the hit of the one that it sees: what it meets
-/// first where floats cannot tell and doubles can; else that of the lowest rank; else of the lowest
-/// number.
+/// `hit` of `ray` is on one of several coincident surfaces. Returns the hit on the one that the ray
+/// sees: the first along the ray, where doubles can tell although floats cannot; otherwise the one of
+/// lowest rank; of equal ranks the one of lowest number.
 template <Needs needs>
 SELDOM HD Hit first_of_several(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
 {
@@ -61,12 +63,12 @@ SELDOM HD Hit first_of_several(const SceneView<needs>& scene, const Ray& ray, co
     const ShearedRay sheared(ray);
     const bool front = from_front(hit);
     Hit first = hit;
-    int first_depth = 0; // along the ray, as against `hit`: before it, level with it, behind it
+    int first_depth = 0; // along the ray, relative to `hit`: before it, level with it, behind it
     std::uint32_t first_rank = rank(hit);
     for (std::uint32_t i = 0; i < contacts.coincident_count; ++i) {
         const Coincident& other = scene.coincident[contacts.first_coincident + i];
         const int depth = front ? -other.side : other.side;
-        Hit candidate{hit.t, other.primitive, 0, 0}; // a sphere is met everywhere
+        Hit candidate{hit.t, other.primitive, 0, 0}; // every ray hits a coincident sphere
         if (other.primitive < triangles &&
             !intersect_triangle(sheared, scene.triangles[other.primitive],
                                 std::numeric_limits<float>::infinity(), candidate))
@@ -96,7 +98,7 @@ SELDOM HD bool sees_first_of_several(const SceneView<needs>& scene, const Surfac
                                      const Vec3& towards)
 {
     const SurfaceContacts& contacts = scene.surface_contacts[scene.surfaces[point.primitive].contacts];
-    // From away, so that t is not near 0; but no further than the surfaces are large.
+    // From some distance, so that t is not near 0; but not farther away than the size of the surfaces.
     const float away = scene.coincident[contacts.first_coincident].largest_size;
     const Ray ray{point.position + away * towards, std::numeric_limits<float>::infinity(), -towards};
     const ShearedRay sheared(ray);
@@ -106,7 +108,7 @@ SELDOM HD bool sees_first_of_several(const SceneView<needs>& scene, const Surfac
         const Coincident& other =
             scene.coincident[contacts.first_coincident + contacts.coincident_count + i];
         Hit hit{};
-        if (other.side == from && (other.primitive >= triangles || // a sphere is met everywhere
+        if (other.side == from && (other.primitive >= triangles || // every ray hits
                                    intersect_triangle(sheared, scene.triangles[other.primitive],
                                                       std::numeric_limits<float>::infinity(), hit)))
             return false;
@@ -115,8 +117,9 @@ SELDOM HD bool sees_first_of_several(const SceneView<needs>& scene, const Surfac
            point.primitive;
 }
 
-/// Whether a ray that comes from direction `towards` (unit length) sees the surface at `point`, and not
-/// one that coincides with it or lies so close over it that a segment to the point may end between them.
+/// Whether a ray that comes from direction `towards` (unit length) sees the surface at `point`, and
+/// not another surface that coincides with it or lies so close over it that a segment to the point may
+/// end between them.
 template <Needs needs>
 HD bool sees_first(const SceneView<needs>& scene, const SurfacePoint& point, const Vec3& towards)
 {

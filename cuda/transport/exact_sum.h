@@ -1,8 +1,8 @@
 #pragma once
 
-// A sum of floats without any rounding [Kulisch], so that it does not depend on the order of its terms:
-// a number with a binary point so wide that every float has its place in it. Carries wait: each word
-// keeps 32 bits of the number in 64, and so has room for 2^32 terms.
+// A sum of floats without any rounding [Kulisch], so that it does not depend on the order of its
+// terms. It is a fixed-point number so wide that it can represent every float. Carries are delayed:
+// each word keeps 32 bits of the number in 64 bits, and so has room for 2^32 terms.
 
 #include "cuda/parallel/atomic.h"
 
@@ -17,7 +17,7 @@ struct ExactSum {
     std::uint64_t words[9]; // word w counts in units of 2^(32 w - 149)
     std::uint64_t lost;     // terms that were infinite, NaN or negative
 
-    /// From any number of threads.
+    /// Adds `term`. May be called from any number of threads.
     HD void add(float term)
     {
         const auto bits = std::bit_cast<std::uint32_t>(term);
@@ -27,7 +27,7 @@ struct ExactSum {
             fast::add(lost, 1);
             return;
         }
-        // term = mantissa 2^(place - 149); subnormal numbers have no hidden bit, and share place 0.
+        // term = mantissa 2^(place - 149); subnormal numbers have no hidden bit and also have place 0.
         const std::uint32_t hidden = exponent > 0 ? 1u << 23 : 0u;
         const std::uint64_t mantissa = (bits & 0x7f'ffff) | hidden;
         const std::uint32_t place = exponent > 0 ? exponent - 1 : 0;
@@ -36,8 +36,8 @@ struct ExactSum {
         if ((shifted >> 32) != 0) fast::add(words[place / 32 + 1], shifted >> 32);
     }
 
-    /// To within a few units of the last place of a double, the same for the same terms; NaN if a term
-    /// was lost.
+    /// The sum, to within a few units of the last place of a double. It is the same for the same terms
+    /// in any order, and NaN if a term was lost.
     [[nodiscard]] double value() const
     {
         if (lost != 0) return std::numeric_limits<double>::quiet_NaN();

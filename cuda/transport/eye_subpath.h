@@ -1,14 +1,14 @@
 #pragma once
 
-// The eye walk: each of its vertices may be on an emitter, and is joined to a fresh point of an emitter
-// and to the vertices that the light walk kept.
+// The eye walk: each of its vertices may be on an emitter, and is joined to a fresh point of an
+// emitter and to the stored vertices of the light walk.
 
 #include "cuda/transport/connect.h"
 #include "cuda/transport/watch.h"
 
 namespace fast {
 
-/// From the eye through a random point of the pixel of `id`.
+/// The ray from the eye through a random point of the pixel of `id`.
 template <Needs needs>
 HD Leg camera_leg(const SceneView<needs>& scene, const SampleId& id)
 {
@@ -25,7 +25,8 @@ HD Leg camera_leg(const SceneView<needs>& scene, const SampleId& id)
             0.0f};
 }
 
-/// `v`, which scatters, as connections need it. Path tracing needs no brackets.
+/// The data that connections need of `v`, which is on a Lambertian surface. Path tracing needs no
+/// brackets.
 template <Integrator integrator>
 HD EyeVertex eye_vertex(Heuristic heuristic, const WalkVertex& v)
 {
@@ -41,7 +42,7 @@ HD EyeVertex eye_vertex(Heuristic heuristic, const WalkVertex& v)
     return z;
 }
 
-/// Walks from the eye and joins every vertex to what there is: `kept` holds `count` vertices of the
+/// Walks from the eye and makes all connections of every vertex: `kept` holds `count` vertices of the
 /// light walk.
 template <Needs needs, Integrator integrator, class Sink>
 HD void eye_subpath(const SceneView<needs>& scene, const PathOptions& options, const SampleId& id,

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where contributions go: sums of one batch, in the memory of the kernels.
+// The sums of one batch, to which contributions are added, in the memory of the kernels.
 
 #include "cuda/transport/exact_sum.h"
 #include "cuda/transport/sampling.h"
@@ -17,11 +17,11 @@ HD constexpr std::uint32_t layer_of(int s, int t)
     return static_cast<std::uint32_t>((k - 1) * (k + 2) / 2 + s);
 }
 
-/// Pictures that any sample can add to at any pixel: one that shows all splats, then one for each
-/// strategy (s, 1). Either as floats, or exact.
+/// Pictures that any sample can add to at any pixel: one with all splats, then one for each strategy
+/// (s, 1). The sums are either floats or exact.
 struct SplatTarget {
     std::span<Rgb> sums;
-    std::span<ExactSum> exact; // three for each of those; empty: floats
+    std::span<ExactSum> exact; // three for each of the pixels above; empty: sums are floats
     HD void add(std::size_t i, const Rgb& value) const
     {
         for (int channel = 0; channel < 3; ++channel) {
@@ -33,28 +33,29 @@ struct SplatTarget {
     }
 };
 
-/// What was left out because it is not finite: how many contributions, and the least of their keys.
+/// The contributions that were left out because they are not finite: their number, and the smallest of
+/// their keys.
 struct DroppedCount {
     std::uint64_t count = 0;
     std::uint64_t least_key = ~std::uint64_t{0};
 };
 
-/// The place of a contribution in the order of (pixel, s, t); walks of more than 65,535 vertices share
-/// one.
+/// The position of a contribution in the order of (pixel, s, t). Walks of more than 65,535 vertices
+/// share a key.
 HD constexpr std::uint64_t dropped_key(std::uint32_t pixel, int s, int t)
 {
     const auto part = [](int n) { return static_cast<std::uint64_t>(n < 0xffff ? n : 0xffff); };
     return std::uint64_t{pixel} << 32 | part(s) << 16 | part(t);
 }
 
-/// What a launch of samples writes to.
+/// The memory that a launch of samples writes to.
 struct FilmTarget {
-    std::span<Rgb> own; // by index of the launch: what the sample adds to its own pixel
+    std::span<Rgb> own; // by index of the launch: the sum of the sample for its own pixel
     SplatTarget splats;
-    std::span<Rgb> layers; // strategy after strategy, a picture each; none: they are not wanted
+    std::span<Rgb> layers;           // one picture per strategy; empty: no layers
     std::span<DroppedCount> dropped; // one
-    bool weighted;                   // layers
-    std::uint32_t pixels;            // of the picture
+    bool weighted;                   // of the layers: whether they are weighted
+    std::uint32_t pixels;            // pixels of the picture
 };
 
 /// Takes the contributions of one sample.
@@ -62,16 +63,16 @@ class FilmSink {
 public:
     HD FilmSink(const FilmTarget& target, std::uint32_t pixel) : target_(target), pixel_(pixel) {}
 
-    /// To the sample's own pixel.
+    /// Adds to the sample's own pixel.
     HD void add(int s, int t, const Rgb& value, float weight)
     {
         if (drop(pixel_, s, t, value, weight)) return;
         own_ += weight * value;
-        // Only one sample of a pixel is under way when there are layers, so nobody else adds here.
+        // With layers, only one sample of a pixel runs at a time, so no other thread adds here.
         if (!target_.layers.empty())
             target_.layers[place(layer_of(s, t), pixel_)] += target_.weighted ? weight * value : value;
     }
-    /// To any pixel, with t = 1.
+    /// Adds to any pixel, with t = 1.
     HD void splat(std::uint32_t pixel, int s, const Rgb& value, float weight)
     {
         if (drop(pixel, s, 1, value, weight)) return;
@@ -83,7 +84,7 @@ public:
     [[nodiscard]] HD const Rgb& own() const { return own_; }
 
 private:
-    /// Whether it is not finite, and so must not reach the picture.
+    /// Whether the contribution is not finite, and must not be added to the picture. If so, counts it.
     HD bool drop(std::uint32_t pixel, int s, int t, const Rgb& value, float weight)
     {
         if (is_finite(value) && std::isfinite(weight)) return false;
@@ -102,10 +103,10 @@ private:
     Rgb own_{0.0f};
 };
 
-/// Kernel over the pixels of a launch: adds its samples, in their order.
+/// Kernel over the pixels of a launch: adds the samples of each pixel, in their order.
 struct SumSamples {
     std::span<const Rgb> own;
-    std::span<Rgb> sums; // the picture's
+    std::span<Rgb> sums; // of the picture
     std::uint32_t first_pixel, pixels, samples;
 
     HD void operator()(std::uint32_t index) const

@@ -1,13 +1,13 @@
 #pragma once
 
-// The light walk: its vertices are joined to the eye at once, and kept for the eye walk.
+// The light walk: each of its vertices is joined to the eye at once, and stored for the eye walk.
 
 #include "cuda/transport/connect.h"
 #include "cuda/transport/watch.h"
 
 namespace fast {
 
-/// The light image of y_0, s = t = 1, if the eye can see the emitter.
+/// The light image of y_0, s = t = 1, if the eye sees the emitter.
 template <Needs needs, Integrator integrator, class Sink>
 HD void light_image_of_emitter(const SceneView<needs>& scene, const PathOptions& options,
                                const SampledEmission& emission, Sink& sink)
@@ -24,18 +24,19 @@ HD void light_image_of_emitter(const SceneView<needs>& scene, const PathOptions&
                                        pdf_position, 1.0f, alpha, sink);
 }
 
-/// From y_0 to y_1.
+/// The first leg, from y_0 to y_1.
 template <Needs needs>
 HD Leg first_leg(const SceneView<needs>& scene, const SampledEmission& emission)
 {
     const Emitter& emitter = scene.emitters[emission.emitter];
-    // Emission of a surface has density cosine / pi; at infinity there is no cosine.
+    // The emission of a surface has density cosine / pi; at infinity there is no cosine.
     const float cosine = is_surface<needs>(emitter) ? emission.pdf_direction * pi : 1.0f;
     return {emission.ray, emission.end.position, at_infinity<needs>(emitter), emission.pdf_direction,
             can_be_hit<needs>(emitter) ? cosine / pdf_emission_position<needs>(emitter) : 0.0f};
 }
 
-/// What is kept of `y`, which scatters. `alpha`: its weight, BSDF included.
+/// The data of `y`, which is on a Lambertian surface, that are stored. `alpha`: its weight, BSDF
+/// included.
 template <Needs needs>
 HD LightVertex light_vertex(const SceneView<needs>& scene, Heuristic heuristic, const WalkVertex& y,
                             const Rgb& alpha)
@@ -52,8 +53,8 @@ HD LightVertex light_vertex(const SceneView<needs>& scene, Heuristic heuristic, 
              y.bracket(5, heuristic)}};
 }
 
-/// Walks from an emitter: sends the light image to `sink` and leaves in `kept` what eye vertices can be
-/// joined to. Returns how many entries it left: y_1, y_2, ...
+/// Walks from an emitter: sends the light image to `sink`, and stores in `kept` the vertices to which
+/// eye vertices can be joined. Returns the number of entries stored: y_1, y_2, ...
 template <Needs needs, Integrator integrator, class Sink>
 HD int light_subpath(const SceneView<needs>& scene, const PathOptions& options, const SampleId& id,
                      const LightVertices& kept, Sink& sink)

@@ -4,11 +4,12 @@
 // constant amount of work per connection. docs/cuda-bdpt.md, section 2, derives it; (1) to (6) are its
 // equations. The sums are those of [Georgiev 2012], without vertex merging and with other letters.
 //
-// Each walk, v_0, v_1, ..., carries sums over the strategies in which the other walk makes its vertices.
-// Of one vertex, pdf_fwd is the density with which the walk itself makes it, and pdf_rev that with which
-// the other walk would make it, coming the other way: both in the same measure, per area on a surface.
-// So their quotient has no unit. The walk learns pdf_rev of v_{n-1} one vertex later, at v_n, as a
-// density per solid angle there; it has kept the factor that turns it into the quotient.
+// Each walk, v_0, v_1, ..., carries sums over the strategies in which the other walk samples its
+// vertices. For each vertex, pdf_fwd is the density with which the walk itself samples it, and pdf_rev
+// the density with which the other walk would sample it, coming from the other end. Both have the same
+// measure, per area on a surface, so their quotient has no unit. The value of pdf_rev of v_{n-1} is
+// available one vertex later, at v_n, as a density per solid angle there; the walk has kept the factor
+// that converts it to the quotient.
 
 #include "cuda/transport/bsdf.h"
 #include "images/render_options.h"
@@ -17,7 +18,7 @@ namespace fast {
 
 using images::Heuristic;
 
-/// Keeps sums finite: a share below the reciprocal does not show in a sum of floats.
+/// Keeps sums finite: a weight below the reciprocal has no effect on a sum of floats.
 constexpr float largest_sum = 1e30f;
 
 /// A quotient of densities, to the exponent of the heuristic: 1, or 2 for the power heuristic
@@ -27,25 +28,25 @@ HD inline float raised(Heuristic heuristic, float quotient)
     return glm::min(heuristic == Heuristic::power ? quotient * quotient : quotient, largest_sum);
 }
 
-/// The sums that a walk carries to its vertex v_n, n >= 1: the bracket B_{n-1} of equation (4), in as
-/// many versions as roulette can tell apart. Version m is for a path in which roulette spares the m
-/// bounces of the other walk that come next, at v_{n-1}, v_{n-2}, ...: their chance to go on is 1.
+/// The sums that a walk carries to its vertex v_n, n >= 1: the bracket B_{n-1} of equation (4), in all
+/// versions that differ by roulette. Version m is for a path in which the next m bounces of the other
+/// walk, at v_{n-1}, v_{n-2}, ..., are without roulette: their probability to go on is 1.
 class RunningSums {
 public:
-    /// At v_1. `joinable` is c_0: whether the other walk can make all of the path, v_0 included (true
-    /// for a light walk whose emitter can be hit; false for an eye walk, since nothing hits a pinhole).
-    /// `geometry_over_pdf`: see advance.
+    /// At v_1. `joinable` is c_0: whether the other walk can make the whole path, v_0 included (true
+    /// for a light walk whose emitter can be hit; false for an eye walk, since a pinhole cannot be
+    /// hit). `geometry_over_pdf`: see advance.
     HD RunningSums(bool joinable, float geometry_over_pdf) : geometry_over_pdf_(geometry_over_pdf)
     {
         for (float& version : brackets_) version = joinable ? 1.0f : 0.0f; // (4), B_0
     }
 
     /// From v_n to v_{n+1}. `joinable` is c_n: whether v_{n-1} and v_n can be joined.
-    /// `pdf_rev_solid_angle`: the density (sr^-1; of a delta lobe as in BsdfSample) with which the other
-    /// walk would go on from v_n to v_{n-1}, without roulette. `survival`: the chance that it goes on
-    /// from v_n, unless roulette spares it. `geometry_over_pdf`: turns such a density at v_{n+1} into
-    /// pdf_rev / pdf_fwd of v_n: the cosine at v_n over squared distance (1 at infinity) and over the
-    /// pdf_fwd of v_n; 0 if the other walk cannot come to v_n.
+    /// `pdf_rev_solid_angle`: the density (sr^-1; for a delta lobe as in BsdfSample) with which the
+    /// other walk would go on from v_n to v_{n-1}, without roulette. `survival`: the probability that
+    /// it goes on from v_n where roulette applies. `geometry_over_pdf`: converts such a density at
+    /// v_{n+1} to pdf_rev / pdf_fwd of v_n. It is the cosine at v_n over the squared distance (1 at
+    /// infinity) and over the pdf_fwd of v_n; 0 if the other walk cannot reach v_n.
     HD void advance(bool joinable, float pdf_rev_solid_angle, float survival, float geometry_over_pdf,
                     Heuristic heuristic)
     {
@@ -60,13 +61,14 @@ public:
     }
 
     /// B_n of equation (4), for a path in which v_n is the last vertex of this walk and the other walk
-    /// has `other_vertices` >= 0. The rest is as in advance; of a v_n at infinity `pdf_rev_solid_angle`
-    /// is per area across the direction instead (emitter.h: pdf_direction).
+    /// has `other_vertices` >= 0. The other parameters are as in advance; if v_n is at infinity,
+    /// `pdf_rev_solid_angle` is instead a density per area across the direction (emitter.h:
+    /// pdf_direction).
     [[nodiscard]] HD float bracket(bool joinable, float pdf_rev_solid_angle, float survival,
                                    int other_vertices, Heuristic heuristic) const
     {
-        // At v_n the other walk would bounce for the other_vertices-th time.
-        const int spared_beyond = bounces_without_roulette - other_vertices; // spared bounces after that
+        // At v_n the other walk would make its bounce number other_vertices.
+        const int spared_beyond = bounces_without_roulette - other_vertices; // later, without roulette
         const float chance = spared_beyond >= 0 ? 1.0f : survival;
         const float quotient = raised(heuristic, pdf_rev_solid_angle * geometry_over_pdf_ * chance);
         return glm::min((joinable ? 1.0f : 0.0f) +
@@ -75,7 +77,7 @@ public:
     }
 
 private:
-    // bracket() chooses version 4 - other_vertices or version 0, and other_vertices is 0 for an emission
+    // bracket() chooses version 4 - other_vertices or version 0; other_vertices is 0 for an emission
     // hit.
     static constexpr int versions = bounces_without_roulette + 1;
 
@@ -85,7 +87,7 @@ private:
 
 /// The last vertex of one walk, y_{s-1} or z_{t-1}, where the strategy joins it to the other walk.
 struct SubpathEnd {
-    float pdf_fwd; // > 0: per area; per solid angle at infinity; a probability where there is no extent
+    float pdf_fwd; // > 0: per area; per solid angle at infinity; a probability for a point
     float pdf_rev; // given the last vertices of the other walk, in the measure of pdf_fwd
     float bracket; // B of equation (4) at this vertex
 };
@@ -110,14 +112,14 @@ HD inline float emission_hit_weight(Heuristic heuristic, const SubpathEnd& z)
 }
 
 /// s = 1, t >= 2: `z` is joined to a fresh point of an emitter. `pdf_fwd`, `pdf_rev` are those of that
-/// point as in SubpathEnd; pdf_rev is 0 if the emitter cannot be hit, which is c_0 = 0.
+/// point as in SubpathEnd; pdf_rev is 0 if the emitter cannot be hit, which means c_0 = 0.
 HD inline float next_event_weight(Heuristic heuristic, float pdf_fwd, float pdf_rev, const SubpathEnd& z)
 {
     const float S = raised(heuristic, pdf_rev / pdf_fwd);  // (3) with B_0 = 1; [Georgiev 2012, eq. 44]
     return weight_of_sums(S, sum_of_others(heuristic, z)); // (5); [Georgiev 2012, eq. 45]
 }
 
-/// s >= 1, t = 1: `y` is joined to the pinhole. Nothing hits a pinhole, so T = 0.
+/// s >= 1, t = 1: `y` is joined to the pinhole. A pinhole cannot be hit, so T = 0.
 HD inline float light_image_weight(Heuristic heuristic, const SubpathEnd& y)
 {
     return weight_of_sums(sum_of_others(heuristic, y), 0.0f); // (5); [Georgiev 2012, eqs. 46 and 47]
@@ -130,16 +132,17 @@ HD inline float inner_connection_weight(Heuristic heuristic, const SubpathEnd& y
                           sum_of_others(heuristic, z)); // (5); [Georgiev 2012, eqs. 40 and 41]
 }
 
-/// Path tracing has two strategies for a path, emission hit and next event, and balances them. The
-/// weight of the one with density `pdf`, where the other has `pdf_other`, both in the same measure.
+/// Path tracing has two strategies for a path, emission hit and next event, and uses the balance
+/// heuristic. Returns the weight of the strategy with density `pdf`, where the other has `pdf_other`,
+/// both in the same measure.
 HD inline float balance_of_two(float pdf, float pdf_other)
 {
     return weight_of_sums(0.0f, pdf_other / pdf); // (6); [Veach 1997, sec. 9.2.2]
 }
 
-/// Path tracing, s = 0: `pdf_hit` is that of the emission hit, > 0, and `pdf_next_event` that of a next
-/// event at the vertex before, per area of the emitter (per solid angle for the environment).
-/// `previous_joinable`: whether there is a next event at that vertex at all.
+/// Path tracing, s = 0: `pdf_hit` is the density of the emission hit, > 0, and `pdf_next_event` that
+/// of a next event at the vertex before, per area of the emitter (per solid angle for the
+/// environment). `previous_joinable`: whether there is a next event at that vertex at all.
 HD inline float path_emission_hit_weight(bool previous_joinable, float pdf_hit, float pdf_next_event)
 {
     return previous_joinable ? balance_of_two(pdf_hit, pdf_next_event) : 1.0f; // (6)

@@ -1,8 +1,8 @@
 #pragma once
 
-// Random numbers as a function: Philox4x32-10 [Salmon et al. 2011], from the Random123 library. The same
-// counter blocks as the reference's (key: seed; counter: pixel, sample, event and vertex, 0), so that a
-// sample takes the same decisions here as there.
+// Random numbers as a function of a counter: Philox4x32-10 [Salmon et al. 2011] from the Random123
+// library. The counter blocks are those of the reference (key: seed; counter: pixel, sample, event and
+// vertex, 0), so that a sample makes the same decisions here as there.
 
 #include "cuda/parallel/host_device.h"
 
@@ -12,7 +12,7 @@
 
 namespace fast {
 
-/// What a block of random numbers decides, numbered like the reference's.
+/// The event that a block of random numbers decides, numbered as in the reference.
 enum class Event : std::uint32_t {
     camera,             // position within the pixel (2)
     emission_position,  // emitter, point on it (3)
@@ -22,8 +22,8 @@ enum class Event : std::uint32_t {
     next_event,         // emitter, point on it (3), for eye vertex j
 };
 
-/// Four numbers in [0, 1): the highest 24 bits of each word, which a float holds exactly. They are less
-/// than 2^-24 below those that the reference makes of all 32 bits.
+/// Four numbers in [0, 1): the highest 24 bits of each word, which a float holds exactly. Each is less
+/// than 2^-24 below the number that the reference makes from all 32 bits.
 struct Uniforms {
     float u[4];
     HD float operator[](int i) const { return u[i]; }

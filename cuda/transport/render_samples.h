@@ -1,14 +1,14 @@
 #pragma once
 
-// The kernel: one sample of one pixel, whole, by one thread.
+// The kernel: one thread computes one whole sample of one pixel.
 
 #include "cuda/transport/bdpt.h"
 #include "cuda/transport/film.h"
 
 namespace fast {
 
-/// Which samples of which pixels a launch takes: index i is pixel first_pixel + i % pixels, sample
-/// first_sample + i / pixels.
+/// The samples of a launch: index i is pixel first_pixel + i % pixels, sample first_sample + i /
+/// pixels.
 struct Launch {
     std::uint32_t first_pixel, pixels;
     std::uint32_t first_sample, samples;

@@ -1,7 +1,7 @@
 #pragma once
 
-// From uniform numbers to points and directions. The densities are those of the reference; where one is
-// needed as a number it is written where it is used.
+// Points and directions from uniform numbers. The densities are those of the reference; where a
+// density is needed as a number, it is computed at that place.
 
 #include "cuda/parallel/vec.h"
 
@@ -43,7 +43,7 @@ struct Frame {
 };
 
 /// radius (cos phi, sin phi), where phi is `u` of a full turn. The angle is reduced by symmetry before
-/// it is rounded: near a full turn, 2 pi u has lost three bits of what u had.
+/// it is rounded, because near a full turn 2 pi u would lose three bits of u.
 HD inline void on_circle(float radius, float u, float& x, float& y)
 {
     const float turn = u < 0.5f ? u : u - 1.0f; // exact
@@ -54,7 +54,7 @@ HD inline void on_circle(float radius, float u, float& x, float& y)
 /// A direction of the hemisphere z > 0 with density cos(theta) / pi [Malley's method].
 HD inline Vec3 sample_cosine_hemisphere(float u1, float u2)
 {
-    Vec3 w(0, 0, std::sqrt(1.0f - u1)); // u1 < 1: never in the plane
+    Vec3 w(0, 0, std::sqrt(1.0f - u1)); // u1 < 1, so w is never in the plane
     on_circle(std::sqrt(u1), u2, w.x, w.y);
     return w;
 }
@@ -70,9 +70,9 @@ HD inline Vec3 sample_sphere(float u1, float u2)
 constexpr float pdf_solid_angle_sphere = inverse_pi / 4.0f;
 
 /// The density per area, at the point that a direction leads to, of a direction with density
-/// `pdf_solid_angle` [Veach 1997, eq. 8.10]. `cosine`: of the direction and the normal at that point.
-/// `inverse_distance2`: one over the squared distance. Where there is one density per area across the
-/// direction in place of a solid angle, as from infinity, the distance does not count: 1.
+/// `pdf_solid_angle` [Veach 1997, eq. 8.10]. `cosine`: between the direction and the normal at that
+/// point. `inverse_distance2`: one over the squared distance; 1 if the density is per area across the
+/// direction instead of per solid angle, as for light from infinity.
 HD inline float to_area(float pdf_solid_angle, float cosine, float inverse_distance2)
 {
     return pdf_solid_angle * cosine * inverse_distance2;

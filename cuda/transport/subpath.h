@@ -1,8 +1,8 @@
 #pragma once
 
-// The two walks of bidirectional path tracing [Veach 1997, sec. 10.2]: v_0, v_1, ... from an emitter or
-// from the eye. They differ in how they start (light_subpath.h, eye_subpath.h) and in what they carry;
-// the walking is one function, which shows every vertex to a visitor and keeps none.
+// The two walks of bidirectional path tracing [Veach 1997, sec. 10.2]: v_0, v_1, ... from an emitter
+// or from the eye. They differ in how they start (light_subpath.h, eye_subpath.h) and in their
+// weights. The bounces are one function, which passes every vertex to a visitor and stores none.
 
 #include "cuda/transport/contacts.h"
 #include "cuda/transport/mis_weight.h"
@@ -10,25 +10,25 @@
 
 namespace fast {
 
-/// How paths are made.
+/// The options of an integrator.
 struct PathOptions {
     std::uint64_t seed;
     std::int32_t max_edges; // of a path, the camera's included; at least 1
     Heuristic heuristic;    // of Integrator::bdpt; path tracing always uses the balance heuristic
 };
 
-/// From one vertex to the next.
+/// The step from one vertex to the next.
 struct Leg {
     Ray ray;
-    Vec3 from;             // the vertex it leaves, unless at infinity
-    bool from_infinity;    // then distance does not count
-    float pdf_direction;   // of the ray, the chance of having gone on included: per solid angle (of a
+    Vec3 from;             // the vertex that the ray leaves, unless at infinity
+    bool from_infinity;    // then the distance does not matter
+    float pdf_direction;   // of the ray, roulette included: per solid angle (for a
                            // delta lobe as in BsdfSample); from infinity per area across the ray
-    float cosine_over_pdf; // cosine at the vertex that it leaves over pdf_fwd there (mis_weight.h); 0 if
-                           // the other walk cannot come there
+    float cosine_over_pdf; // cosine at the start vertex over pdf_fwd there (mis_weight.h); 0 if
+                           // the other walk cannot reach that vertex
 };
 
-/// A surface that a walk has come to: its v_n.
+/// A vertex v_n of a walk on a surface.
 struct WalkVertex {
     SurfacePoint point;
     Vec3 wo;      // unit, to v_{n-1}
@@ -38,40 +38,40 @@ struct WalkVertex {
     std::uint32_t emitter; // or no_emitter
     int n;
     Rgb alpha;              // weight of the walk [Veach 1997, sec. 10.2]: f |cos| / p so far
-    bool previous_joinable; // v_{n-1} can be joined, if this can
-    float pdf_area;         // with which the walk made v_n, given v_{n-1} and v_{n-2}; > 0
+    bool previous_joinable; // v_{n-1} allows a join to v_n
+    float pdf_area;         // of v_n in this walk, given v_{n-1} and v_{n-2}; > 0
     RunningSums sums;
 
     /// B_n of docs/cuda-bdpt.md, equation (4), where this vertex is joined to a walk of
-    /// `other_vertices`. Only for a material that scatters.
+    /// `other_vertices`. Only for Lambertian surfaces.
     [[nodiscard]] HD float bracket(int other_vertices, Heuristic heuristic) const
     {
         return sums.bracket(previous_joinable, pdf_rev_solid_angle(), material.survival, other_vertices,
                             heuristic);
     }
-    /// The density with which a walk that comes the other way goes on along wo, without roulette: of a
-    /// Lambertian surface, and of the emission of one.
+    /// The density with which a walk from the other end goes on along wo, without roulette: for the
+    /// reflection of a Lambertian surface, and for emission.
     [[nodiscard]] HD float pdf_rev_solid_angle() const { return cosine * inverse_pi; }
 };
 
-/// Chance that a walk goes on from its n-th bounce.
+/// The probability that a walk goes on from its n-th bounce.
 HD inline float chance_of(const Material& material, int n)
 {
     return n > bounces_without_roulette ? material.survival : 1.0f;
 }
 
-/// Follows `leg` and what its bounces make of it, to v_{most_vertices - 1} at the farthest, and calls
-/// on_surface(vertex) for every v_n, n >= 1. An eye walk that leaves the scene calls
-/// on_miss(leg, n, alpha, previous_joinable, sums) for the v_n that it finds at infinity. `alpha` is the
-/// weight of v_1. `start_can_be_hit`: whether the other walk can come to v_0.
+/// Follows `leg` and its bounces, at most to v_{most_vertices - 1}, and calls on_surface(vertex) for
+/// every v_n, n >= 1. If an eye walk leaves the scene, calls on_miss(leg, n, alpha, previous_joinable,
+/// sums) for the v_n at infinity. `alpha` is the weight of v_1. `start_can_be_hit`: whether the other
+/// walk can reach v_0.
 template <Needs needs, class OnSurface, class OnMiss>
 HD void walk(const SceneView<needs>& scene, const PathOptions& options, const SampleId& id,
              Transport carried, Leg leg, bool start_can_be_hit, Rgb alpha, int most_vertices,
              const OnSurface& on_surface, const OnMiss& on_miss)
 {
     const Event event = carried == Transport::radiance ? Event::eye_bounce : Event::light_bounce;
-    bool previous_joinable = true; // the eye; and y_0 to the surface that it lights
-    // Of v_{n-1}, as RunningSums::advance wants them.
+    bool previous_joinable = true; // true for the eye, and for y_0 and the surface that it lights
+    // Of v_{n-1}, the arguments of RunningSums::advance.
     bool joinable = start_can_be_hit;
     float pdf_rev_solid_angle = 0.0f;
     float survival = 1.0f;
@@ -101,7 +101,7 @@ HD void walk(const SceneView<needs>& scene, const PathOptions& options, const Sa
         const Vec3 d = point.position - leg.from;
         const float inverse_distance2 = leg.from_infinity ? 1.0f : 1.0f / glm::dot(d, d);
         const float pdf_area = to_area(leg.pdf_direction, cosine, inverse_distance2);
-        if (!(pdf_area > 0.0f)) return; // in the very plane of the surface: no path of any density
+        if (!(pdf_area > 0.0f)) return; // in the plane of the surface: the density is 0
         carry_sums(leg.cosine_over_pdf * inverse_distance2);
         on_surface(WalkVertex{point, wo, wo_local.z < 0.0f ? -point.normal : point.normal, cosine,
                               material, surface.emitter, n, alpha, previous_joinable, pdf_area, sums});

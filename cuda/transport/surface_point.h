@@ -1,13 +1,13 @@
 #pragma once
 
-// From what a ray hit, or a sample drew, to a point on a surface.
+// A point on a surface, from a hit or from a sample.
 
 #include "cuda/transport/scene_view.h"
 
 namespace fast {
 
-/// (v1 - v0) x (v2 - v0) to unit length, whose square may be too small for a float. Any unit vector
-/// where there is no such direction.
+/// (v1 - v0) x (v2 - v0) scaled to unit length; its square may underflow. Any unit vector if the
+/// product has no direction.
 HD inline Vec3 unit_normal(const Vec3& e1, const Vec3& e2)
 {
     const Vec3 across = glm::cross(e1, e2);
@@ -15,8 +15,8 @@ HD inline Vec3 unit_normal(const Vec3& e1, const Vec3& e2)
     return size > 0.0f ? glm::normalize(across / size) : Vec3(0.0f, 0.0f, 1.0f);
 }
 
-/// The point of triangle number `triangle` with weights b1, b2 of its second and third vertex; moved off
-/// the edges by a few roundings (clearance.h, step 8).
+/// The point of triangle number `triangle` with weights b1, b2 of its second and third vertex, moved
+/// off the edges by a few roundings (clearance.h, step 8).
 template <Needs needs>
 HD SurfacePoint triangle_point(const SceneView<needs>& scene, std::uint32_t triangle, float b1, float b2)
 {
@@ -48,7 +48,7 @@ HD SurfacePoint sphere_point(const SceneView<needs>& scene, std::uint32_t primit
     return point;
 }
 
-/// The surface at `hit`, which `ray` found.
+/// The surface at `hit`, which must be a hit of `ray`.
 template <Needs needs>
 HD SurfacePoint surface_point(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
 {

@@ -1,15 +1,15 @@
 #pragma once
 
-// Sinks that are shown the walks themselves, and not only what they contribute. Tests need this, to
-// compare every step of a walk with the reference. For a sink that does not watch, these functions
-// compile to nothing.
+// Sinks that receive the steps of the walks in addition to the contributions. Tests use this to
+// compare every step of a walk with the reference. For other sinks, these functions compile to
+// nothing.
 
 #include "cuda/transport/emission.h"
 #include "cuda/transport/subpath.h"
 
 namespace fast {
 
-/// Is shown how the light walk begins, every surface that a walk meets, and the leg that meets none.
+/// Receives the start of the light walk, every surface that a walk hits, and the leg that hits none.
 template <class Sink>
 concept WatchesWalks = requires(Sink& sink, const SampledEmission& emission, const WalkVertex& vertex,
                                 const Leg& leg)

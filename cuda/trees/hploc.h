@@ -1,12 +1,12 @@
 #pragma once
 
-// A better tree over the same sorted keys: clusters of neighbours along the curve are merged pair by
-// pair, those that make the smallest box together first, while walking up the radix tree [Benthin et al.
-// 2024; Meister and Bittner 2018 for the merging].
+// A better tree over the same sorted keys. Clusters of neighbours along the curve are merged pair by
+// pair during a walk up the radix tree; the pairs with the smallest common box are merged first
+// [Benthin et al. 2024; Meister and Bittner 2018 for the merging].
 //
-// One launch, which asks the host nothing, and one thread per walk, as in the refit. A node of the radix
-// tree hands its clusters to its parent, at most `most_handed_on` of them. The second of two siblings to
-// arrive joins both lists and, if that is too many, merges.
+// The build is one launch without a transfer to the host, with one thread per walk, as in the refit.
+// Each node of the radix tree passes its clusters to its parent, at most `most_handed_on` of them. The
+// second of two siblings to arrive joins both lists, and merges clusters if there are too many.
 
 #include "cuda/parallel/atomic.h"
 #include "cuda/parallel/buffer.h"
@@ -19,14 +19,16 @@
 
 namespace fast {
 
-/// Half a warp in the paper.
+/// The most clusters that a node passes to its parent: half a warp in the paper.
 constexpr std::uint32_t most_handed_on = 16;
-/// How far along the list a cluster looks for its nearest neighbour, to both sides.
+/// The distance in the list, to both sides, within which the nearest neighbour of a cluster is
+/// searched.
 constexpr std::uint32_t search_radius = 8;
 
-/// A subtree that has no parent yet. `slot` is the number of its first leaf; slots grow along every
-/// list. When two clusters merge, the new node is named after the slot of the second, and the first
-/// keeps its own: so names are unique, and do not depend on who is first.
+/// A subtree that has no parent yet. `slot` is the number of its first leaf; slots increase along
+/// every list. When two clusters merge, the number of the new node follows from the slot of the
+/// second, and the merged cluster keeps the slot of the first. So node numbers are unique and do not
+/// depend on the schedule.
 struct Cluster {
     Aabb box;
     std::uint32_t root; // as a child (node.h)
@@ -34,7 +36,7 @@ struct Cluster {
     std::uint32_t height; // edges from the root to the deepest leaf
 };
 
-/// Which node has no parent, and the height of the tree.
+/// The node that has no parent, and the height of the tree.
 struct Top {
     std::uint32_t root;
     std::uint32_t height;
@@ -46,11 +48,11 @@ struct ClusterList {
     std::uint32_t count;
 };
 
-/// Kernel over leaves: walks up the radix tree and makes the nodes of another one.
+/// Kernel over leaves: walks up the radix tree and makes the nodes of the new tree.
 struct MergeClusters {
     std::span<const Aabb> boxes;
     std::span<const std::uint32_t> primitives;
-    std::span<Node> radix; // of which the links are read and arrivals counted
+    std::span<Node> radix; // its links are read, and its arrivals counted
     std::span<const std::uint32_t> radix_leaf_links;
     std::span<ClusterList> handed_on; // two per node: by the left child, by the right child
     std::span<Cluster> clusters;      // one per leaf
@@ -78,7 +80,7 @@ struct MergeClusters {
     }
 
 private:
-    /// The clusters of the right list brought next to those of the left, towards the front.
+    /// Moves the clusters of the right list towards the front, next to those of the left list.
     [[nodiscard]] HD ClusterList joined(const ClusterList& left, const ClusterList& right) const
     {
         for (std::uint32_t i = 0; i < right.count; ++i)
@@ -86,7 +88,8 @@ private:
         return {left.first, left.count + right.count};
     }
 
-    /// Merges every two clusters that are each other's nearest neighbours; returns how many are left.
+    /// Merges every two clusters that are each other's nearest neighbours; returns the number of
+    /// clusters left.
     [[nodiscard]] HD std::uint32_t merge_nearest(const ClusterList& list) const
     {
         std::uint32_t nearest[2 * most_handed_on];
@@ -102,8 +105,9 @@ private:
         return kept;
     }
 
-    /// The neighbour that makes the smallest box with cluster i. Of several the first pair in order of
-    /// both numbers: so the best pair of all is mutual, and every round merges something.
+    /// The neighbour whose common box with cluster i is the smallest. Of several it takes the first
+    /// pair, ordered by both numbers. So the best pair of all is mutual, and every round merges
+    /// something.
     [[nodiscard]] HD std::uint32_t nearest_of(const ClusterList& list, std::uint32_t i) const
     {
         const std::uint32_t begin = i < search_radius ? 0 : i - search_radius;
@@ -122,17 +126,18 @@ private:
         return best;
     }
 
-    /// Infinite where it would be no number (0 * infinity): so that any two areas can be compared.
+    /// The area of the union; infinity instead of NaN (0 * infinity), so that any two areas can be
+    /// compared.
     [[nodiscard]] HD static float area_of_both(const Aabb& a, const Aabb& b)
     {
         const float area = half_area(unite(a, b));
         return area == area ? area : std::numeric_limits<float>::infinity();
     }
 
-    /// One cluster of two, under a new node.
+    /// Merges two clusters into one, under a new node.
     [[nodiscard]] HD Cluster merged(const Cluster& left, const Cluster& right) const
     {
-        const std::uint32_t name = right.slot - 1; // slot 0 is the first of every list that it is in
+        const std::uint32_t name = right.slot - 1; // >= 0: slot 0 is always the first in its list
         nodes[name].bounds[0] = left.box;
         nodes[name].bounds[1] = right.box;
         nodes[name].children[0] = left.root;
@@ -150,7 +155,7 @@ private:
     }
 };
 
-/// Kernel of one index: the root changes places with node 0.
+/// Kernel of one index: exchanges the root with node 0.
 struct MoveRootToFront {
     std::span<const Top> top;
     std::span<Node> nodes;
@@ -175,7 +180,7 @@ struct MoveRootToFront {
     }
 };
 
-/// The tree, and the memory that it takes to make it out of a radix tree; reused.
+/// The tree, and the memory that is needed to build it from a radix tree. It can be used again.
 class Hploc {
 public:
     /// For up to `capacity` primitives. Throws OutOfMemory.
@@ -183,8 +188,8 @@ public:
         : nodes_(memory, capacity), leaf_links_(memory, capacity),
           handed_on_(memory, 2 * std::size_t{capacity}), clusters_(memory, capacity), top_(memory, 1)
     {}
-    /// Queues the build, of the primitives that `sorted` was built over last, in the order of its
-    /// leaves. What is legal input is said there.
+    /// Queues the build over the primitives of the last build of `sorted`, in the order of its leaves.
+    /// The conditions on the boxes are those of Lbvh::build.
     template <Executor E, class Code>
     void build(E& executor, std::span<const Aabb> boxes, Lbvh<Code>& sorted)
     {
@@ -198,17 +203,17 @@ public:
         executor(1, MoveRootToFront{top_.all(), nodes, leaf_links});
     }
 
-    /// As node.h says, but for the order of leaves: they keep the numbers that they have in the radix
-    /// tree, and a node does not cover a range of them.
+    /// Nodes as in node.h, except for the order of leaves: leaves keep the numbers that they have in
+    /// the radix tree, and a node does not cover a range of them.
     [[nodiscard]] std::span<const Node> nodes() const
     {
         return nodes_.first(count_ == 0 ? 0 : count_ - 1);
     }
     [[nodiscard]] std::span<const std::uint32_t> leaf_links() const { return leaf_links_.first(count_); }
 
-    /// Waits for the build. Edges from the root to the deepest leaf: no bound is known, and a tree
-    /// higher than `deepest_tree` does not suit traverse.h. (Boxes inside boxes inside boxes make such;
-    /// the radix tree does not mind.)
+    /// Waits for the build. Returns the number of edges from the root to the deepest leaf. No bound on
+    /// it is known, and traverse.h cannot traverse a tree higher than `deepest_tree`. (Many boxes
+    /// nested in each other give such a tree; the height of the radix tree does not depend on boxes.)
     [[nodiscard]] std::uint32_t height() const { return count_ == 0 ? 0 : top_.read(1)[0].height; }
 
 private:

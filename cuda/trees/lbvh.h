@@ -1,8 +1,8 @@
 #pragma once
 
-// From boxes to a tree, along a Morton curve: bounds, codes, sort, tree, refit. The stages are launched
-// one after the other on an executor, and nothing in between waits for a result: on a device all of it
-// can be queued at once, or captured in a graph.
+// A tree over boxes along a Morton curve: bounds, codes, sort, tree, refit. The stages are launched
+// one after the other on an executor, and no stage needs a result on the host. So on a device the
+// whole build can be queued at once, or captured in a graph.
 
 #include "cuda/parallel/buffer.h"
 #include "cuda/parallel/radix_sort.h"
@@ -23,13 +23,13 @@ namespace fast {
 enum class Stage { bounds, codes, sort, tree, refit };
 constexpr std::array<const char*, 5> stage_names = {"bounds", "codes", "sort", "tree", "refit"};
 
-/// A tree over the leaves of a Morton curve (node.h), and all memory that building it takes: rebuilding
-/// it allocates nothing. `Code` is std::uint32_t for codes of 30 bits or std::uint64_t for 63.
+/// A tree over the leaves of a Morton curve (node.h), and all memory that the build needs: rebuilding
+/// allocates nothing. `Code` is std::uint32_t for codes of 30 bits or std::uint64_t for 63.
 template <class Code>
 class Lbvh {
 public:
     /// For up to `capacity` primitives, at most most_primitives, in the memory that the kernels of
-    /// `executor` work on. Throws OutOfMemory, and std::invalid_argument for a larger capacity.
+    /// `executor` access. Throws OutOfMemory, and std::invalid_argument for a larger capacity.
     template <Executor E>
     Lbvh(Memory& memory, const E& executor, std::uint32_t capacity)
         : nodes_(memory, internal_nodes(checked(capacity))),
@@ -43,12 +43,12 @@ public:
           sort_scratch_(memory, sort_scratch<Code, std::uint32_t>(executor, capacity, code_bits<Code>))
     {}
 
-    /// Queues the build of the tree over `boxes`, which must stay as they are until it is done. No two
-    /// may be queued at once but in order. `finished(stage)` is called as soon as a stage is queued.
-    /// Throws std::length_error for more boxes than there is room for.
+    /// Queues the build of the tree over `boxes`, which must not change until it is done. A second
+    /// build may be queued only on the same executor, after the first. `finished(stage)` is called as
+    /// soon as a stage is queued. Throws std::length_error for more boxes than the capacity.
     ///
-    /// Boxes that are empty or not finite are not legal: the build ends, the tree is undefined, and
-    /// first_rejected() gives the number of the first of them.
+    /// Boxes that are empty or not finite are not legal. With such boxes the build ends, the tree is
+    /// undefined, and first_rejected() gives the lowest number of such a box.
     template <Executor E, std::invocable<Stage> Finished>
     void build(E& executor, std::span<const Aabb> boxes, const Finished& finished)
     {
@@ -88,14 +88,15 @@ public:
         build(executor, boxes, [](Stage) {});
     }
 
-    /// Queues new boxes for the same tree: those of the same primitives, moved.
+    /// Queues a refit of the same tree to new boxes of the same primitives, for example after they
+    /// moved.
     template <Executor E>
     void refit(E& executor, std::span<const Aabb> boxes)
     {
         executor(count_, RefitBounds<>{boxes, sorted_primitives_, leaf_links_.first(count_), nodes()});
     }
 
-    // What the last build queued will have left here, in the memory of its kernels.
+    // Results of the last build that was queued, in the memory of its kernels; valid once it is done.
     [[nodiscard]] std::uint32_t primitive_count() const { return count_; }
     [[nodiscard]] std::span<Node> nodes() { return nodes_.first(internal_nodes(count_)); }
     [[nodiscard]] std::span<const Node> nodes() const { return nodes_.first(internal_nodes(count_)); }

@@ -3,13 +3,14 @@
 // Morton codes in single precision: the bits of three cell coordinates interleaved, x0 y0 z0 x1 y1 z1
 // ... from the most significant down [Lauterbach 2009, sec. 3.1].
 //
-// How far can a cell be from the one that exact arithmetic gives? Let u = 2^-24 be the unit roundoff, M
-// the largest magnitude of a coordinate along an axis, E the extent of the centroids there, and 2^b the
-// number of cells. A centroid is rounded by u M at most (halving is exact, above the denormal numbers),
-// and so are both ends of the grid, which are centroids. For the position p = (x - l) / (h - l) in 0 to
-// 1: the numerator errs by 2 u M, the denominator by 2 u M, which moves p by 2 u M / E (1 + p) at most;
-// the two differences and the quotient round by 3 u p more; times 2^b is exact. So the product errs by
-// 2^b (4 u M / E + 3 u) in first order, and the cell, which is its integer part, by that rounded up.
+// How far can a cell be from the one that exact arithmetic gives? Let u = 2^-24 be the unit roundoff,
+// M the largest magnitude of a coordinate along an axis, E the extent of the centroids there, and 2^b
+// the number of cells. A centroid is rounded by at most u M (halving is exact, above the denormal
+// numbers), and so are both ends of the grid, which are centroids. The position is p = (x - l) / (h -
+// l), in 0 to 1. Its numerator has an error of 2 u M, and its denominator one of 2 u M, which together
+// move p by at most 2 u M / E (1 + p). The two differences and the quotient add roundings of 3 u p;
+// the multiplication by 2^b is exact. So the product has an error of 2^b (4 u M / E + 3 u) to first
+// order, and the cell, its integer part, differs by at most that, rounded up.
 
 #include "cuda/trees/centroid_bounds.h"
 
@@ -26,8 +27,8 @@ constexpr int bits_per_axis = std::is_same_v<Code, std::uint32_t> ? 10 : 21;
 template <class Code>
 constexpr int code_bits = 3 * bits_per_axis<Code>;
 
-/// Moves bit i of the low 10 bits of `x` to bit 3 i: at every step each group of bits is split in two,
-/// and the upper half moves away by twice its width.
+/// Moves bit i of the low 10 bits of `x` to bit 3 i: every step splits each group of bits in two and
+/// moves the upper half away by twice its width.
 HD inline std::uint32_t spread_bits(std::uint32_t x)
 {
     x = (x | x << 16) & 0x0300'00ffu;
@@ -37,7 +38,7 @@ HD inline std::uint32_t spread_bits(std::uint32_t x)
     return x;
 }
 
-/// The same for the low 21 bits: twice ten bits and one.
+/// The same for the low 21 bits: two groups of ten bits, and one bit.
 HD inline std::uint64_t spread_bits(std::uint64_t x)
 {
     const std::uint64_t low = spread_bits(static_cast<std::uint32_t>(x & 0x3ff));
@@ -46,15 +47,15 @@ HD inline std::uint64_t spread_bits(std::uint64_t x)
     return high << 60 | middle << 30 | low;
 }
 
-/// The place of `x` between `lower` and `upper` as one of 2^bits cells. An axis without extent has one
-/// cell. Where the extent overflows, halves do not. Says something for NaN, too: cell 0.
+/// The cell of `x` between `lower` and `upper`, one of 2^bits cells. An axis without extent has one
+/// cell. If the extent overflows, halves are used instead. For NaN the result is cell 0.
 HD inline std::uint32_t cell_along_axis(float x, float lower, float upper, int bits)
 {
     const float cells = static_cast<float>(1u << bits);
     const bool is_huge = upper - lower > std::numeric_limits<float>::max();
     const float scale = is_huge ? 0.5f : 1.0f;
     const float position = (scale * x - scale * lower) / (scale * upper - scale * lower);
-    if (!(position > 0)) return 0; // 0 / 0 as well
+    if (!(position > 0)) return 0; // also for 0 / 0
     const float cell = position * cells;
     return static_cast<std::uint32_t>(cell < cells - 1 ? cell : cells - 1);
 }
@@ -69,7 +70,7 @@ HD Code morton_code(const Vec3& point, const Aabb& grid)
     return spread_bits(x) << 2 | spread_bits(y) << 1 | spread_bits(z);
 }
 
-/// Kernel over primitives: the code of the centroid in the grid over all centroids.
+/// Kernel over primitives: the code of the centroid, in the grid over all centroids.
 template <class Code>
 struct ComputeMortonCodes {
     std::span<const Aabb> boxes;

@@ -3,8 +3,8 @@
 // The binary radix tree over sorted keys, one thread per internal node [Karras 2012, sec. 3 and 4].
 //
 // Names follow the paper: delta (length of the longest common prefix), d (direction of the range), l
-// (its length), s (distance of the split), gamma (its position), i and j (ends of the range). Keys are
-// the codes followed by their index.
+// (its length), s (distance of the split), gamma (its position), i and j (ends of the range). A key is
+// a code followed by its index.
 
 #include "cuda/trees/node.h"
 
@@ -15,8 +15,8 @@
 
 namespace fast {
 
-/// Kernel over internal nodes, of which n codes have n - 1: finds the range of a node and where it
-/// splits, and links the node with its children. Boxes are left to the refit.
+/// Kernel over internal nodes (n codes have n - 1): finds the range of a node and its split, and links
+/// the node with its children. The boxes are set by the refit.
 template <class Code>
 struct BuildRadixTree {
     std::span<const Code> codes; // sorted; at most most_primitives
@@ -26,13 +26,14 @@ struct BuildRadixTree {
     HD void operator()(std::uint32_t index) const
     {
         const auto i = static_cast<std::int32_t>(index);
-        // Towards the neighbour that shares more with key i. The other one belongs to a sibling, and
-        // bounds from below what the keys of this node share.
+        // The range extends towards the neighbour with the longer common prefix. The other neighbour
+        // belongs to a sibling; its delta is a strict lower bound on the prefix that the keys of this
+        // node share.
         const int d = delta(i, i + 1) > delta(i, i - 1) ? 1 : -1;
         const int delta_min = delta(i, i - d);
 
-        // An upper bound for the length, at most twice too long; then its bits from the highest. No sum
-        // here exceeds 3 n.
+        // An upper bound for the length, at most twice too long; then the bits of the length from the
+        // highest. No sum here exceeds 3 n.
         std::int32_t l_max = 2;
         while (delta(i, i + l_max * d) > delta_min) l_max *= 2;
         std::int32_t l = 0;
@@ -40,7 +41,7 @@ struct BuildRadixTree {
             if (delta(i, i + (l + t) * d) > delta_min) l += t;
         const std::int32_t j = i + l * d;
 
-        // The farthest key that shares more with key i than key j does.
+        // The farthest key whose common prefix with key i is longer than that of key j.
         const int delta_node = delta(i, j);
         std::int32_t s = 0;
         for (std::int32_t t = l; t > 1;) {
@@ -69,7 +70,7 @@ private:
         return std::numeric_limits<Code>::digits + std::countl_zero(static_cast<std::uint32_t>(i ^ j));
     }
 
-    /// The child next to the split is the leaf of that number, or the internal node of that number.
+    /// The child next to the split: the leaf or the internal node with number `at_split`.
     HD void link(std::uint32_t parent, std::uint32_t side, std::int32_t at_split, bool to_leaf) const
     {
         const auto number = static_cast<std::uint32_t>(at_split);

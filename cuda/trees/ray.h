@@ -1,6 +1,6 @@
 #pragma once
 
-// Rays and what they find. `t` counts in multiples of the direction, which need not have unit length.
+// Rays and hits. `t` is measured in multiples of the direction, which need not have unit length.
 
 #include "cuda/trees/triangle.h"
 
@@ -15,14 +15,15 @@ struct Ray {
     Vec3 direction;
 };
 
-/// Where a ray meets a primitive, or no_primitive.
+/// The point where a ray hits a primitive; the primitive is no_primitive if there is no hit.
 struct Hit {
     float t;
     std::uint32_t primitive;
     float b1, b2; // weights of the second and third vertex; 0 on a sphere
 };
 
-/// Closer, or as close and of a lower number: so that the closest hit does not depend on the tree.
+/// Whether `a` is closer, or as close and of lower number: so the closest hit does not depend on the
+/// tree.
 HD inline bool comes_before(const Hit& a, const Hit& b)
 {
     return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);

@@ -1,6 +1,6 @@
 #pragma once
 
-// How far a computed float can be from the real number it stands for.
+// Bounds on the difference between a computed float and the exact real number.
 
 #include <limits>
 

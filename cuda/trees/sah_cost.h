@@ -1,6 +1,6 @@
 #pragma once
 
-// How good a tree is, on the host.
+// The quality of a tree, computed on the host.
 
 #include "cuda/trees/node.h"
 
@@ -8,9 +8,9 @@
 
 namespace fast {
 
-/// Expected cost of a ray that meets the root, with C_trav = C_isect = 1 and one primitive per leaf: the
-/// areas of all nodes and leaves over that of the root [Goldsmith and Salmon 1987]. Each but the root's
-/// stands in its parent. 1 where there is no internal node.
+/// The expected cost of a ray that hits the root's box, with C_trav = C_isect = 1 and one primitive
+/// per leaf: the areas of all nodes and leaves, divided by that of the root [Goldsmith and Salmon
+/// 1987]. The box of every node but the root is stored in its parent. 1 if there is no internal node.
 inline double sah_cost(std::span<const Node> nodes)
 {
     if (nodes.empty()) return 1;

@@ -17,7 +17,7 @@ bool has_area_in_double(const scenes::Triangle& triangle)
     scenes::Vec3 e2 = v[2] - v[0];
     const double size = std::max(scenes::largest_component(e1), scenes::largest_component(e2));
     if (size == 0) return false;
-    // By an exact power of two to edges of about 1: no square under- or overflows.
+    // Scaled by an exact power of two to edges of about 1, so that no square overflows or underflows.
     const double scale = std::ldexp(1.0, -std::clamp(std::ilogb(size), -1000, 1000));
     e1 *= scale;
     e2 *= scale;
@@ -27,15 +27,16 @@ bool has_area_in_double(const scenes::Triangle& triangle)
     const double rounding = 0x1p-48 * scale *
                             std::max({scenes::largest_component(v[0]), scenes::largest_component(v[1]),
                                       scenes::largest_component(v[2])});
-    // NaN is left to those who reject it.
+    // NaN counts as area here; the tree build rejects it later.
     return !(glm::dot(across, across) <= rounding * rounding * longest2);
 }
 
 namespace {
 
-/// In double, where differences and products of floats are exact unless they are of very different size;
-/// and rounding does not make equal products differ. Not to be inlined: GCC 12.2 drops the rounding of a
-/// double to float and back where it vectorises it, and would look at the triangle before it is rounded.
+/// Computed in double, where differences and products of floats are exact unless they are of very
+/// different size; and rounding does not make equal products differ. Must not be inlined: where GCC
+/// 12.2 vectorises the conversion of a double to float and back, it drops the rounding, and the test
+/// would see the triangle before it is rounded.
 [[gnu::noinline]] bool has_area_in_float(const Triangle& triangle)
 {
     const auto& v = triangle.vertices;
@@ -56,7 +57,7 @@ bool has_area(const scenes::Triangle& triangle, const Placement& place)
 {
     const Triangle floats = rounded(triangle, place);
     for (const Vec3& vertex : floats.vertices)
-        if (!is_finite(vertex)) return true; // to be rejected
+        if (!is_finite(vertex)) return true; // the tree build rejects it
     return has_area_in_double(triangle) && has_area_in_float(floats);
 }
 

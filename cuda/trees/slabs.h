@@ -1,18 +1,20 @@
 #pragma once
 
-// A ray against boxes, as three pairs of planes [Kay and Kajiya 1986].
+// The intersection of a ray with boxes, as three pairs of planes [Kay and Kajiya 1986].
 //
-// The test must not miss a box around a triangle that intersect.h would hit, nor one around a sphere.
-// Let u = 2^-24 be the unit roundoff and m the largest coordinate of b - o over the corners b of the
-// root's box, o the origin of the ray. The shear moves a vertex by no more than 7 u m across the ray and
-// 3 u m along it (two differences, two quotients, one product on the way), and t is rounded once. What
-// counts as a hit of a sphere is within 22 u M of it (sphere.h), where M <= 2 m: the radius is m at
-// most, and the distance of the centre sqrt(3) m. Here the difference, the reciprocal and the product
-// round once each. All of it together stays below 64 u m along every axis, by which every box is padded;
-// so no comparison needs a tolerance. [Ize 2013] is about the boxes alone.
+// The test must not miss a box around a triangle that intersect.h would hit, nor a box around a sphere
+// that would be hit. Let u = 2^-24 be the unit roundoff, o the origin of the ray, and m the largest
+// coordinate of b - o over the corners b of the root's box. The shear moves a vertex by at most 7 u m
+// across the ray and 3 u m along it (two differences, two quotients, one product), and t is rounded
+// once. A reported hit of a sphere is within 22 u M of it (sphere.h), where M <= 2 m: the radius is at
+// most m, and the distance of the centre at most sqrt(3) m. Here the difference, the reciprocal and
+// the product are rounded once each. The sum of all these errors stays below 64 u m along every axis.
+// Every box is padded by 64 u m, so no comparison needs a tolerance. [Ize 2013] treats the error of
+// the boxes alone.
 //
-// The padding is not added to the planes but taken off the origin, once for the planes at which the ray
-// enters and once for those at which it leaves. That sum is rounded by u |o + padding|, so that much
+// The padding is not added to the planes but subtracted from the origin, once for the planes at which
+// the ray enters and once for those at which it leaves. That sum is rounded by u |o + padding|, so
+// that 2 u |o| more is subtracted.
 // more is taken off: 2 u |o|.
 
 #include "cuda/trees/ray.h"
@@ -35,14 +37,14 @@ public:
         for (int axis = 0; axis < 3; ++axis) {
             const float origin = ray.origin[axis];
             const float padding = unit_roundoff * (64 * m + 2 * glm::abs(origin));
-            // Of -0 the reciprocal is minus infinity: such a ray descends.
+            // 1 / -0 is minus infinity: a ray with direction -0 counts as descending.
             const bool descends = reciprocal_[axis] < 0;
             first_[axis] = descends ? 1 : 0;
             entering_[axis] = descends ? origin - padding : origin + padding;
             leaving_[axis] = descends ? origin + padding : origin - padding;
         }
     }
-    /// The smallest t >= 0 at which the ray is in the box; infinity if it is in it at no t <= limit.
+    /// The smallest t >= 0 at which the ray is in the box; infinity if there is no such t <= limit.
     [[nodiscard]] HD float entry(const Aabb& box, float limit) const
     {
         float near = 0;
@@ -63,7 +65,7 @@ private:
             ((descends ? box.upper : box.lower)[axis] - entering_[axis]) * reciprocal_[axis];
         const float leave =
             ((descends ? box.lower : box.upper)[axis] - leaving_[axis]) * reciprocal_[axis];
-        // In the very plane of a face 0 * infinity is NaN, and these comparisons pass it over.
+        // In the plane of a face 0 * infinity is NaN, which these comparisons ignore.
         near = enter > near ? enter : near;
         far = leave < far ? leave : far;
     }
@@ -89,11 +91,11 @@ public:
             reciprocal_[axis] = all_lanes(slabs.reciprocal_[axis]);
         }
     }
-    /// The ray is in a box from `near` to `far`, if that is not before.
+    /// The ray is in a box from `near` to `far`; it misses the box if near > far.
     HD void entries(const WideNode& node, float limit, Lanes& near, Lanes& far) const
     {
-        // In the very plane of a face 0 * infinity is NaN. Then the second argument counts, and at worst
-        // a box is visited that could have been left out.
+        // In the plane of a face 0 * infinity is NaN. Then the second argument is taken, and the worst
+        // effect is a visit to a box that could have been skipped.
         near = larger(larger(enter(node, 0), enter(node, 1)), larger(enter(node, 2), all_lanes(0)));
         far =
             smaller(smaller(leave(node, 0), leave(node, 1)), smaller(leave(node, 2), all_lanes(limit)));

@@ -1,7 +1,7 @@
 #pragma once
 
-// Triangles and spheres together, as a renderer asks about them: what does a ray hit first, and does it
-// hit anything? Primitives are numbered through, first the triangles, then the spheres
+// Triangles and spheres together, with two queries: the closest hit of a ray, and whether a ray hits
+// anything. Primitives are numbered consecutively, first the triangles, then the spheres
 // (scenes::primitive_count).
 
 #include "cuda/trees/lbvh.h"
@@ -17,10 +17,10 @@
 
 namespace fast {
 
-/// What kernels need of the surfaces. Where there are no spheres they cost nothing.
+/// The view of the surfaces that kernels use. In scenes without spheres, the spheres cost nothing.
 template <bool has_spheres>
 struct Surfaces {
-    WideTreeView tree; // in its groups a sphere has a number, and no vertices
+    WideTreeView tree; // a sphere in a group has its number and no vertices
     std::span<const Sphere> spheres;
     std::uint32_t triangle_count;
 };
@@ -42,16 +42,16 @@ HD void intersect_group(const Surfaces<has_spheres>& surfaces, std::uint32_t gro
         }
 }
 
-/// Whether the ray has a place and a direction. The comparisons of a traversal let NaN pass, which would
-/// lead others to children that are not there.
+/// Whether the ray has a position and a direction (no NaN). The comparisons of a traversal accept NaN,
+/// which would lead other code to children that do not exist.
 HD inline bool is_a_ray(const Ray& ray)
 {
     return is_finite(ray.origin) && is_finite(ray.direction) && ray.direction != Vec3(0.0f);
 }
 
-/// The hit of smallest t; of several at the same t, that of the lowest primitive number. Where nothing
-/// is hit, as by a ray that has no place or no direction, its primitive is no_primitive and its t that
-/// of the ray's end.
+/// The hit of smallest t; of several at the same t, that of the lowest primitive number. If nothing is
+/// hit, or the ray has no position or no direction (is_a_ray), the primitive is no_primitive and t is
+/// ray.t_max.
 template <bool has_spheres>
 HD Hit intersect(const Surfaces<has_spheres>& surfaces, const Ray& ray)
 {
@@ -67,7 +67,7 @@ HD Hit intersect(const Surfaces<has_spheres>& surfaces, const Ray& ray)
     return best;
 }
 
-/// Whether the ray hits anything; see above for one that is none.
+/// Whether the ray hits anything; false if the ray has no position or no direction (is_a_ray).
 template <bool has_spheres>
 HD bool occluded(const Surfaces<has_spheres>& surfaces, const Ray& ray)
 {
@@ -84,10 +84,11 @@ HD bool occluded(const Surfaces<has_spheres>& surfaces, const Ray& ray)
 /// Owns surfaces and a tree over them.
 class SurfaceTree {
 public:
-    /// Copies the surfaces from the host and builds, by `executor`, into `memory`, which is that of its
-    /// kernels and must outlive the tree. Waits for the build. Throws std::invalid_argument for more
-    /// than most_primitives, and for a primitive that has a coordinate that is NaN or infinite, or a
-    /// negative radius, by the number of the first; OutOfMemory.
+    /// Copies the surfaces from the host into `memory` and builds the tree with `executor`. `memory`
+    /// is that of its kernels, and must outlive the tree. Waits for the build. Throws
+    /// std::invalid_argument for more than most_primitives; std::invalid_argument that names the first
+    /// primitive with a coordinate that is NaN or infinite, or with a negative radius; and
+    /// OutOfMemory.
     template <Executor E>
     SurfaceTree(Memory& memory, E& executor, std::span<const Triangle> triangles,
                 std::span<const Sphere> spheres)
@@ -95,18 +96,18 @@ public:
           tree_(build(memory, executor, triangles))
     {}
 
-    /// Stays good while the tree lives. With `has_spheres` false there must be none.
+    /// Valid as long as the tree exists. `has_spheres` may be false only if there are no spheres.
     template <bool has_spheres>
     [[nodiscard]] Surfaces<has_spheres> view() const
     {
         return {tree_.view(), spheres_.all(), triangle_count_};
     }
     [[nodiscard]] bool has_spheres() const { return spheres_.size() > 0; }
-    /// Of the box around all surfaces (clearance.h); 0 where there are none.
+    /// The diagonal of the box around all surfaces (clearance.h); 0 if there are no surfaces.
     [[nodiscard]] float diagonal() const { return diagonal_; }
 
 private:
-    /// The number of triangles, if it fits with that of the spheres.
+    /// The number of triangles. Throws if there are too many triangles and spheres together.
     static std::uint32_t checked(std::size_t triangles, std::size_t spheres)
     {
         if (triangles > most_primitives || spheres > most_primitives - triangles)

@@ -1,6 +1,6 @@
 #pragma once
 
-// Traverses a tree along a ray: the closest hit (intersect), and whether there is any (occluded).
+// Traverses a tree along a ray: the closest hit (intersect), and whether there is any hit (occluded).
 
 #include "cuda/trees/intersect.h"
 #include "cuda/trees/node.h"
@@ -15,15 +15,15 @@
 
 namespace fast {
 
-/// A tree as traversal reads it; at most `deepest_tree` deep. Triangles are in the order of leaves: leaf
-/// l holds triangles[l].
+/// A tree for traversal, at most `deepest_tree` deep. Triangles are in the order of leaves: leaf l
+/// holds triangles[l].
 struct TreeView {
     std::span<const Node> nodes;
-    std::span<const std::uint32_t> primitives; // by leaf: which primitive its triangle is
+    std::span<const std::uint32_t> primitives; // by leaf: the number of its triangle
     std::span<const Triangle> triangles;       // by leaf
 };
 
-/// Kernel over leaves: brings triangles into their order.
+/// Kernel over leaves: brings triangles into the order of leaves.
 struct OrderTriangles {
     std::span<const Triangle> triangles;
     std::span<const std::uint32_t> primitives;
@@ -32,15 +32,14 @@ struct OrderTriangles {
     HD void operator()(std::uint32_t leaf) const { ordered[leaf] = triangles[primitives[leaf]]; }
 };
 
-/// A counter of nodes that counts nothing.
+/// The default counter of nodes: counts nothing.
 struct NotCounted {
     HD void operator()() const {}
 };
 
-/// Calls test(leaf) for every leaf whose box the ray enters at a t <= limit, of two children the nearer
-/// one first. `test` returns the limit from then on: the t of the closest hit so far, or a negative
-/// number to stop. Of a tree over one primitive the only leaf is tested in any case. Calls count() for
-/// every node.
+/// Calls test(leaf) for every leaf whose box the ray enters at a t <= limit, the nearer of two
+/// children first. `test` returns the new limit: the t of the closest hit so far, or a negative number
+/// to stop. In a tree over one primitive the only leaf is always tested. Calls count() for every node.
 template <class Test, class Count = NotCounted>
 HD void traverse(const TreeView& tree, const Ray& ray, const Test& test, const Count& count = {})
 {

@@ -14,8 +14,8 @@ struct Triangle {
     Vec3 vertices[3];
 };
 
-/// Kernel over triangles. Minimum and maximum would swallow a vertex that is NaN: such a triangle gets a
-/// box that is NaN, too, and will be rejected by its number.
+/// Kernel over triangles. Minimum and maximum would ignore a vertex that is NaN. So a triangle with
+/// NaN gets a box of NaN, and the tree build rejects it by its number.
 struct BoundTriangles {
     std::span<const Triangle> triangles;
     std::span<Aabb> boxes;

@@ -1,7 +1,6 @@
 #pragma once
 
-// The leaves of a wide tree: up to four triangles, stored so that the processor tests all of them at
-// once.
+// The leaves of a wide tree: up to four triangles, stored so that all of them are tested at once.
 
 #include "cuda/parallel/lanes.h"
 #include "cuda/trees/intersect.h"
@@ -12,10 +11,10 @@
 
 namespace fast {
 
-/// Lane i holds triangle i, or NaN where there is none.
+/// Lane i holds triangle i, or NaN if there is no triangle i.
 struct alignas(32) TriangleGroup {
     Lanes vertices[3][3];        // first, second, third vertex; x, y, z
-    std::uint32_t primitives[4]; // by lane; no_primitive where there is none
+    std::uint32_t primitives[4]; // by lane; no_primitive in an empty lane
 
     [[nodiscard]] HD Triangle triangle(int lane) const
     {
@@ -26,7 +25,8 @@ struct alignas(32) TriangleGroup {
     }
 };
 
-/// The first, second or third vertices of a group as ShearedRay::shear sees them; but z is not scaled.
+/// The first, second or third vertices of a group, sheared as by ShearedRay::shear, but with z not
+/// scaled.
 struct ShearedVertices {
     Lanes x, y, z;
 
@@ -40,22 +40,25 @@ struct ShearedVertices {
     [[nodiscard]] HD Lanes reach() const { return larger(magnitude(x), magnitude(y)); }
 };
 
-/// Edge functions without the second look that their sign may need (intersect.h).
+/// Edge functions in single precision, without the step in double that the sign may need
+/// (intersect.h).
 HD inline Lanes edges(const ShearedVertices& p, const ShearedVertices& q)
 {
     return p.x * q.y - p.y * q.x;
 }
 
-/// Bit i is set if the ray may hit triangle i at a t > 0: for every one that it does hit, and for few
-/// others. So what comes after need not be fast.
+/// Bit i is set if the ray may hit triangle i at a t > 0: for every triangle that it does hit, and for
+/// few others. So the exact test that follows need not be fast.
 ///
-/// Inside: an edge function that is not 0 has its true sign; one that is 0 counts for either.
+/// Inside: an edge function that is not 0 has its true sign; one that is 0 counts as either sign.
 ///
-/// In front: of what rays pass inside, half is behind them, most of all what they have just left. Let X
-/// be the largest |x| or |y|, Z the sum of all |z|. An edge function is 2 X^2 at most and errs by 4 u
-/// X^2. In T = U z_A + V z_B + W z_C that makes 4 u X^2 Z, the products another 2 and the sums 4, and
-/// the z of intersect_triangle are rounded once more, which is 2: together less than 16 u X^2 Z. What
-/// underflows errs by less than the smallest normal number. What overflows counts as in front; but
+/// In front: half of the triangles whose inside the ray's line crosses are behind the ray, often the
+/// one that the ray has just left. Let X be the largest |x| or |y|, and Z the sum of all |z|. An edge
+/// function is at most 2 X^2 and has an error of 4 u X^2. In T = U z_A + V z_B + W z_C this gives 4 u
+/// X^2 Z; the products add 2 u X^2 Z, the sums 4 u X^2 Z, and the rounding of the z of
+/// intersect_triangle 2 u X^2 Z: together less than 16 u X^2 Z. An underflow has an error of less than
+/// the smallest normal number. An overflow counts as in front; but products of two lengths must be
+/// within the range of floats.
 /// products of two lengths must be within the range of floats.
 HD inline std::uint32_t may_hit(const ShearedRay& ray, const TriangleGroup& group)
 {
@@ -72,16 +75,16 @@ HD inline std::uint32_t may_hit(const ShearedRay& ray, const TriangleGroup& grou
     constexpr float tiny = std::numeric_limits<float>::min();
     const Lanes X = larger(larger(A.reach(), B.reach()), C.reach());
     const Lanes Z = magnitude(A.z) + magnitude(B.z) + magnitude(C.z);
-    const Lanes bound = (X + X) * (X + X) * Z; // of |T|: infinite if anything in T is
+    const Lanes bound = (X + X) * (X + X) * Z; // bounds |T|: infinite if a term of T is
     const Lanes error = all_lanes(4 * unit_roundoff) * bound + all_lanes(tiny) * Z + all_lanes(tiny);
     const Lanes T = (U * A.z + V * B.z + W * C.z) * all_lanes(ray.shear_factors().z < 0 ? -1.0f : 1.0f);
-    // Where the first argument is NaN the second counts.
+    // If the first argument is NaN, the second is taken.
     return non_negative_mask(larger(smaller(error + T, least), smaller(error - T, -most)));
 }
 
-/// Calls found(hit) for every triangle of the group that the ray hits at 0 < t < `limit`. Where lanes
-/// take turns, a first look at all of them would only keep registers from other threads. (NaN is not
-/// hit.)
+/// Calls found(hit) for every triangle of the group that the ray hits at 0 < t < `limit`. If lanes are
+/// computed one after the other, the test of all lanes in advance is left out, since it would only use
+/// registers. (NaN is not hit.)
 template <class Found>
 HD void intersect_group(const ShearedRay& ray, const TriangleGroup& group, float limit,
                         const Found& found)

@@ -12,8 +12,8 @@ void add(const std::optional<Contribution>& contribution, std::vector<Contributi
     if (contribution) out.push_back(*contribution);
 }
 
-/// s + t - 1 edges, at most max_edges: no light walk needs more vertices than edges, no eye walk more
-/// than one above.
+/// The most vertices that a walk can need. A path has s + t - 1 edges, at most max_edges. So a light
+/// walk needs at most max_edges vertices, and an eye walk one more.
 std::size_t most_vertices(const PathOptions& options)
 {
     return static_cast<std::size_t>(options.max_edges);

@@ -1,19 +1,20 @@
 #pragma once
 
-// The pinhole camera: from a point of the film to a ray and back, and what the film measures.
+// The pinhole camera: from a point of the film to a ray and back, and the importance of the film.
 //
-// A pixel's value is the mean radiance over the pixel. As a measurement of the light that reaches the
-// pinhole [Veach 1997, sec. 8.2] its importance is W_e = 1 / (A cos^4) for a film of area A at distance
-// 1, times the number of pixels, on the pixel itself. The cosine is that between the ray and the viewing
-// direction, which is the pinhole's normal. Three of its powers come from the solid angle that a piece
-// of the film spans; the fourth cancels the cosine that the geometric term G has at the pinhole.
+// The value of a pixel is the mean radiance over the pixel. As a measurement of the light that reaches
+// the pinhole [Veach 1997, sec. 8.2], its importance is W_e = 1 / (A cos^4) for a film of area A at
+// distance 1, times the number of pixels, on the pixel itself, and 0 elsewhere. The cosine is that
+// between the ray and the viewing direction, which is the normal of the pinhole. Three of its powers
+// come from the solid angle of a piece of the film; the fourth cancels the cosine of the geometric
+// term G at the pinhole.
 //
-// That cosine of G is Camera::cosine. The vertex at the eye has no normal, so geometric_term (vertex.h)
-// has no cosine there, and light_image (connect.cpp) multiplies G by it and by W_e. Their product is
-// pdf_solid_angle, the density of eye walks, which therefore begin with weight 1.
+// That cosine of G is Camera::cosine. The vertex at the eye has no normal, so geometric_term
+// (vertex.h) has no cosine there, and light_image (connect.cpp) multiplies G by it and by W_e. Their
+// product is pdf_solid_angle, the density of eye walks; therefore eye walks begin with weight 1.
 //
-// With as many light walks as eye walks over the whole film the number of pixels cancels, and what a
-// light walk adds to a pixel is divided by the samples per pixel alone.
+// There are as many light walks as eye walks over the whole film, so the number of pixels cancels: the
+// contribution of a light walk to a pixel is divided only by the samples per pixel.
 
 #include "ref/trees/ray.h"
 #include "scenes/scene.h"
@@ -26,13 +27,13 @@
 
 namespace ref {
 
-/// A scene's camera for pictures of `width` x `height` square pixels.
+/// The camera of a scene, for pictures of `width` x `height` square pixels.
 class Camera {
 public:
     Camera(const scenes::Camera& camera, int width, int height)
         : camera_(camera), width_(width), height_(height)
     {
-        // The field of view spans the picture along one axis; square pixels give the other.
+        // The field of view is given along one axis; since pixels are square, the other axis follows.
         const double tan_half = std::tan(camera.fov / 2.0);
         const int pixels = camera.fov_axis == scenes::FovAxis::horizontal ? width : height;
         pixel_size_ = 2.0 * tan_half / pixels;
@@ -50,7 +51,7 @@ public:
         return {camera_.eye, glm::normalize(x * camera_.right + y * camera_.up - camera_.backward)};
     }
 
-    /// The film point that is seen in direction `w` from the eye, or none outside the picture.
+    /// The film point that is seen in direction `w` from the eye; nullopt outside the picture.
     [[nodiscard]] std::optional<glm::dvec2> project(const Vec3& w) const
     {
         const double ahead = -glm::dot(w, camera_.backward);
@@ -64,13 +65,13 @@ public:
     /// Cosine between the unit direction `w` from the eye and the viewing direction.
     [[nodiscard]] double cosine(const Vec3& w) const { return -glm::dot(w, camera_.backward); }
 
-    /// W_e (sr^-1) towards a unit direction within the picture, see above.
+    /// W_e (sr^-1) towards a unit direction within the picture; see the top of the file.
     [[nodiscard]] double importance(const Vec3& w) const
     {
         return 1.0 / (film_area() * std::pow(cosine(w), 4));
     }
 
-    /// The density with which eye walks over the whole film start towards such a direction.
+    /// The density (sr^-1) with which eye walks over the whole film start in such a direction.
     [[nodiscard]] double pdf_solid_angle(const Vec3& w) const
     {
         return 1.0 / (film_area() * std::pow(cosine(w), 3));

@@ -17,7 +17,7 @@ Path join(std::span<const Vertex> y, std::span<const Vertex> z)
     return x;
 }
 
-/// The contribution of a path whose ends are joined, or nothing if it carries no light.
+/// The contribution of a path whose ends are joined; nullopt if it carries no light.
 std::optional<Contribution> contribution(const World& world, const PathOptions& options,
                                          std::uint32_t pixel, std::span<const Vertex> y,
                                          std::span<const Vertex> z, const Rgb& value)
@@ -27,7 +27,7 @@ std::optional<Contribution> contribution(const World& world, const PathOptions& 
                         mis_weight(world, options, join(y, z), y.size())};
 }
 
-/// Whether nothing stands between the eye and another vertex, on a surface or at infinity.
+/// Whether no surface lies between the eye and another vertex, on a surface or at infinity.
 bool eye_sees(const World& world, const Vertex& vertex)
 {
     if (vertex.kind == Vertex::Kind::infinity)

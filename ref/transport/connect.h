@@ -1,13 +1,14 @@
 #pragma once
 
-// The four families of strategies: how s vertices of a light walk and t of an eye walk become a path.
-// Each returns what the path adds to the picture, unweighted and with its weight, or nothing.
+// The four families of strategies that join s vertices of a light walk and t vertices of an eye walk
+// into a path. Each function returns the contribution of the path to the picture, both unweighted and
+// weighted, or nullopt.
 //
-//   family            (s, t)           2015 report  Lafortune & Willems 1993
-//   emission_hit      s = 0,  t >= 2   Case I (k=1)  the eye walk meets a light source
-//   next_event        s = 1,  t >= 2   Case II       direct light at an eye vertex
-//   light_image       s >= 1, t = 1    Case III      a light vertex seen from the eye
-//   inner_connection  s >= 2, t >= 2   Case IV       a light vertex seen from an eye vertex
+//   family            (s, t)           2015 report     Lafortune & Willems 1993
+//   emission_hit      s = 0,  t >= 2   Case I (k = 1)  the eye walk hits a light source
+//   next_event        s = 1,  t >= 2   Case II         direct light at an eye vertex
+//   light_image       s >= 1, t = 1    Case III        a light vertex seen from the eye
+//   inner_connection  s >= 2, t >= 2   Case IV         a light vertex seen from an eye vertex
 
 #include "ref/transport/vertex.h"
 
@@ -24,7 +25,7 @@ std::optional<Contribution> emission_hit(const World& world, const PathOptions& 
 std::optional<Contribution> next_event(const World& world, const PathOptions& options,
                                        const SampleId& id, std::span<const Vertex> z);
 
-/// t = 1: y_{s-1} is joined to the pinhole z_0. The contribution falls on whatever pixel sees it.
+/// t = 1: y_{s-1} is joined to the pinhole z_0. The contribution goes to the pixel that sees y_{s-1}.
 std::optional<Contribution> light_image(const World& world, const PathOptions& options,
                                         std::span<const Vertex> y, const Vertex& eye);
 

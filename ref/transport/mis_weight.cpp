@@ -6,8 +6,8 @@ namespace ref {
 
 namespace {
 
-/// The density with which a walk that came from `previous` to `vertex`, its `bounce`-th bounce, makes
-/// `next`: per area at `next`, or per solid angle if that is at infinity.
+/// The density with which a walk that came from `previous` to `vertex` samples `next` by bounce number
+/// `bounce`: per area at `next`, or per solid angle if `next` is at infinity.
 double pdf_next(const World& world, const PathOptions& options, const Vertex& previous,
                 const Vertex& vertex, int bounce, const Vertex& next)
 {
@@ -25,7 +25,7 @@ double pdf_next(const World& world, const PathOptions& options, const Vertex& pr
     return pdf * cosine(next, w) / glm::dot(d, d); // [Veach 1997, eq. 8.10]
 }
 
-/// The density of x_{k-1}, which the camera's ray finds.
+/// The density with which the ray of the camera samples x_{k-1}.
 double pdf_camera(const World& world, const Vertex& eye, const Vertex& next)
 {
     const Vec3 w = direction(eye, next);
@@ -42,13 +42,13 @@ VertexDensities vertex_densities(const World& world, const PathOptions& options,
     const std::size_t k = x.size() - 1;
     VertexDensities p{std::vector<double>(k + 1, 0.0), std::vector<double>(k + 1, 0.0)};
 
-    // The light walk makes x_0 ... x_{k-1}; the pinhole x_k it never meets.
+    // The light walk makes x_0 ... x_{k-1}; it cannot hit the pinhole x_k.
     p.light[0] = pdf_emission_position(*x[0]);
     if (k >= 2) p.light[1] = pdf_area_emission_direction(world, *x[0], *x[1]);
     for (std::size_t i = 2; i < k; ++i) // from x_{i-1}, the walk's bounce number i - 1
         p.light[i] = pdf_next(world, options, *x[i - 2], *x[i - 1], static_cast<int>(i) - 1, *x[i]);
 
-    // The eye walk makes x_k ... x_0; the pinhole is certain. A delta emitter it never meets.
+    // The eye walk makes x_k ... x_0. The pinhole has probability 1; a delta emitter cannot be hit.
     p.eye[k] = 1.0;
     p.eye[k - 1] = pdf_camera(world, *x[k], *x[k - 1]);
     for (std::size_t i = 0; i + 2 <= k; ++i) // from x_{i+1}, the walk's bounce number k - i - 1
@@ -63,7 +63,8 @@ bool is_possible(const World& world, const Path& x, std::size_t s)
     if (s == 0) return can_be_hit(*x[0]->emitter);
     const bool light_end = s == 1 || scatters(world, *x[s - 1]);
     const bool eye_end = s == k || scatters(world, *x[s]);
-    // A pinhole sees no emitter without extent: the path has density zero for every eye walk.
+    // An emitter without extent cannot be hit from the pinhole: the path has density 0 for every eye
+    // walk.
     const bool seen = k > 1 || can_be_hit(*x[0]->emitter);
     return light_end && eye_end && seen;
 }
@@ -85,7 +86,7 @@ double mis_weight(const World& world, const PathOptions& options, const Path& x,
 {
     if (!is_possible(world, x, s)) return 0.0;
     const VertexDensities p = vertex_densities(world, options, x);
-    for (std::size_t i = 0; i < x.size(); ++i) // along a surface, to within rounding, no walk goes
+    for (std::size_t i = 0; i < x.size(); ++i) // no walk goes along a surface, to within rounding
         if ((i < s ? p.light[i] : p.eye[i]) == 0.0) return 0.0;
     double sum = 0.0;
     for (const double quotient : density_quotients(world, x, p, s)) // [Veach 1997, sec. 9.2]

@@ -7,16 +7,17 @@ namespace ref {
 
 namespace {
 
-/// The eye walk as far as it has come.
+/// The state of the eye walk.
 struct Walk {
     Ray ray;
     Vec3 from;      // the vertex that `ray` leaves, without offset
     Rgb throughput; // product of f |cos| / pdf over the bounces so far
-    double pdf;     // of the ray's direction, per solid angle, with the chance of having gone on
-    bool delta;     // the direction was certain: next-event estimation could not have found it
+    double pdf;     // of the ray's direction, per solid angle, with roulette included
+    bool delta;     // the bounce was a delta: next-event estimation cannot sample its direction
 };
 
-/// Share of the emission hit in a path that next-event estimation finds with density `pdf_light`.
+/// The weight of the emission hit in a path that next-event estimation samples with density
+/// `pdf_light`.
 double weight_of_hit(const Walk& walk, double pdf_light)
 {
     return walk.delta ? 1.0 : walk.pdf / (walk.pdf + pdf_light);
@@ -48,7 +49,7 @@ void trace_path(const World& world, const PathOptions& options, const SampleId& 
                 std::vector<Contribution>& out)
 {
     const Ray first = camera_ray(world, id);
-    // No other strategy of this integrator finds what the camera sees directly: as if it were certain.
+    // A directly seen emitter has no other strategy in this integrator, so its hit counts as a delta.
     Walk walk{first, first.origin, Rgb(1.0), 0.0, true};
 
     for (int j = 1; j <= options.max_edges; ++j) { // the edge from z_{j-1} to z_j

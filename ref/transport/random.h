@@ -1,6 +1,6 @@
 #pragma once
 
-// Random numbers as a function, not a sequence: Philox4x32-10 [Salmon 2011], counter-based, from the
+// Random numbers as a function of a counter, not as a sequence: Philox4x32-10 [Salmon 2011] from the
 // Random123 library. Every decision of every sample has its own counter block, so any sample of any
 // picture can be computed alone, in any order and on any machine.
 
@@ -11,7 +11,8 @@
 
 namespace ref {
 
-/// What a block of random numbers decides. `next_event` and the bounces also carry the vertex index.
+/// The event that a block of random numbers decides. `next_event` and the bounces also carry the
+/// vertex index.
 enum class Event : std::uint32_t {
     camera,             // position within the pixel (2)
     emission_position,  // emitter, point on it (3)
@@ -21,7 +22,7 @@ enum class Event : std::uint32_t {
     next_event,         // emitter, point on it (3), for eye vertex j
 };
 
-/// Four numbers in (0, 1): midpoints of 2^32 equal cells, so that neither end is ever reached.
+/// Four numbers in (0, 1): the midpoints of 2^32 equal cells, so neither 0 nor 1 occurs.
 using Uniforms = std::array<double, 4>;
 
 /// Identifies one sample of one pixel of one picture.

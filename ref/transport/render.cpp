@@ -46,7 +46,7 @@ public:
         sums_[index_of(c.s, c.t)].pixels[c.pixel] += weighted_ ? c.weight * c.value : c.value;
     }
 
-    /// Moves them out.
+    /// Moves the pictures out.
     [[nodiscard]] images::Strategies take()
     {
         images::Strategies result;
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    /// Paths of k edges have k + 1 strategies, s = 0 ... k; before them stand those of 1 ... k - 1
+    /// A path of k edges has k + 1 strategies, s = 0 ... k. They come after those of 1 ... k - 1
     /// edges.
     static std::size_t index_of(int s, int t)
     {
@@ -70,10 +70,10 @@ private:
     std::vector<images::Image> sums_;
 };
 
-/// One batch in the making. Sums are formed in an order of their own, not in that of the threads: a
-/// pixel's own samples one after the other; apart from them what light walks splat on it, tile by tile;
-/// then both together. Splats of a tile that is done before its turn wait, the others are summed at
-/// once: a picture's worth of them would not fit in memory.
+/// One batch while it is computed. The order of all sums is fixed and does not depend on the threads:
+/// first a pixel's own samples, one after the other; separately the splats of light walks on it, tile
+/// by tile; then the sum of both. The splats of a tile that is done before its turn are stored; the
+/// others are summed at once, because the splats of a whole picture would not fit in memory.
 class BatchInMaking {
 public:
     BatchInMaking(const World& world, Integrator integrator, const images::RenderOptions& options,
@@ -134,9 +134,9 @@ private:
         }
     }
 
-    /// Adds what the tile's samples show on their own pixels, and returns what they splat on any pixel:
-    /// the light image, t = 1. No other thread touches the tile's pixels, nor its strategies of t > 1
-    /// there. What is not finite goes to `dropped`.
+    /// Adds the contributions of the tile's samples to their own pixels, and returns their splats on
+    /// any pixel: the light image, t = 1. No other thread accesses the tile's pixels, nor its
+    /// strategies of t > 1 there. Contributions that are not finite go to `dropped`.
     std::vector<Contribution> sample_tile(const Tile& tile, images::Dropped& dropped)
     {
         std::vector<Contribution> contributions;
@@ -161,12 +161,13 @@ private:
         return splats;
     }
 
-    /// Adds the splats of all tiles up to the first that is not done. To be called under the lock.
+    /// Adds the splats of all tiles up to the first one that is not done. The caller must hold the
+    /// lock.
     void add_splats_in_order()
     {
         for (; next_splats_ < tiles_.size() && waiting_[next_splats_]; ++next_splats_) {
             for (const Contribution& splat : *waiting_[next_splats_]) add(splat, splat_sum_);
-            std::vector<Contribution>().swap(*waiting_[next_splats_]); // gives the memory back
+            std::vector<Contribution>().swap(*waiting_[next_splats_]); // frees the memory
         }
     }
 
@@ -182,15 +183,15 @@ private:
     PathOptions path_{options_.seed, options_.max_edges, options_.roulette, options_.heuristic};
     std::uint64_t number_;
     std::vector<Tile> tiles_;
-    images::Image sum_; // in the end, the mean
+    images::Image sum_; // finally the mean
     std::optional<StrategyImages> strategies_;
 
     std::atomic<std::size_t> next_tile_ = 0;
     std::atomic<bool> stopped_ = false;
-    std::mutex mutex_; // guards what follows
+    std::mutex mutex_; // guards the members below
     std::size_t tiles_done_ = 0;
-    std::vector<std::optional<std::vector<Contribution>>> waiting_; // per tile that is done: its splats
-    std::size_t next_splats_ = 0;                                   // of the first tile that is not
+    std::vector<std::optional<std::vector<Contribution>>> waiting_; // splats per tile; empty: not done
+    std::size_t next_splats_ = 0;                                   // the first tile that is not done
     images::Image splat_sum_;
     images::Dropped dropped_;
     std::exception_ptr error_;
@@ -218,7 +219,7 @@ private:
     unsigned threads_;
 };
 
-/// The world comes first: the renderer refers to it.
+/// World is the first base, because the renderer refers to it.
 class SceneRenderer : private World, public RefRenderer {
 public:
     SceneRenderer(const scenes::Scene& source, int width, int height,
@@ -241,7 +242,7 @@ Integrator integrator_of(images::Integrator name)
     case images::Integrator::light:
         return trace_light;
     }
-    throw std::invalid_argument("no integrator of that number");
+    throw std::invalid_argument("unknown integrator");
 }
 
 std::unique_ptr<images::Renderer> renderer(const World& world, Integrator integrator,

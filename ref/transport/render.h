@@ -1,7 +1,7 @@
 #pragma once
 
-// The reference behind the one door (images/renderer.h): batches of samples, tiles of pixels, threads
-// over tiles.
+// The reference as an images::Renderer (images/renderer.h): batches of samples, tiles of pixels,
+// threads over tiles.
 
 #include "images/render_options.h"
 #include "images/renderer.h"
@@ -12,12 +12,13 @@
 
 namespace ref {
 
-/// The integrator of that name.
+/// The function for an integrator's name.
 Integrator integrator_of(images::Integrator name);
 
-/// Renders `world`, which must outlive the renderer, by any function that is an integrator; that of the
-/// options is not used. The batches depend on world, integrator, options and seed alone, not on the
-/// number of `threads`. Throws what images::check does. A batch throws what the integrator throws.
+/// Renders `world`, which must outlive the renderer, with any function that is an integrator; the
+/// integrator named in the options is ignored. The batches depend only on world, integrator, options
+/// and seed, not on the number of `threads`. Throws the exceptions of images::check. A batch throws
+/// those of the integrator.
 std::unique_ptr<images::Renderer> renderer(const World& world, Integrator integrator,
                                            const images::RenderOptions& options, unsigned threads = 1);
 

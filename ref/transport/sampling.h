@@ -1,6 +1,6 @@
 #pragma once
 
-// From uniform numbers to points and directions, each with its density. A density's name says its
+// Points and directions from uniform numbers, each with its density. The name of a density says its
 // measure: pdf_area (m^-2), pdf_solid_angle (sr^-1).
 
 #include "ref/trees/ray.h"
@@ -40,7 +40,7 @@ struct Frame {
 };
 
 /// A direction of the hemisphere z > 0 with density cos(theta) / pi: a uniform point of the unit disc,
-/// lifted to the sphere [Malley's method].
+/// projected up to the sphere [Malley's method].
 inline Vec3 sample_cosine_hemisphere(double u1, double u2)
 {
     const double radius = std::sqrt(u1);
@@ -53,7 +53,7 @@ inline double pdf_solid_angle_cosine_hemisphere(const Vec3& w_local)
     return std::max(0.0, w_local.z) * inverse_pi;
 }
 
-/// A uniform direction: by Archimedes, z is uniform in [-1, 1].
+/// A uniform direction: z is uniform in [-1, 1] (Archimedes).
 inline Vec3 sample_sphere(double u1, double u2)
 {
     const double z = 1.0 - 2.0 * u1;

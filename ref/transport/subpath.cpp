@@ -6,7 +6,7 @@ namespace ref {
 
 namespace {
 
-/// Follows `ray` and what its bounces make of it, appending to `path`. `alpha` is the weight of the
+/// Follows `ray` and its bounces, and appends the vertices to `path`. `alpha` is the weight of the
 /// first vertex found, without the BSDF there.
 void walk(const World& world, const PathOptions& options, const SampleId& id, Transport carried, Ray ray,
           Rgb alpha, std::size_t max_vertices, std::vector<Vertex>& path)

@@ -1,7 +1,7 @@
 #pragma once
 
 // Whether two points see each other. Ends on surfaces are moved off them by their own error bounds, so
-// the segment between them is tested whole, with no epsilon at either end. An end in free space that
+// the whole segment between them is tested, with no epsilon at either end. An end in free space that
 // happens to lie on a surface is not hidden by that surface (scenes/contacts.h).
 
 #include "ref/transport/emitter.h"
@@ -12,7 +12,7 @@
 
 namespace ref {
 
-/// Whether nothing stands between two points on surfaces.
+/// Whether no surface lies between two points on surfaces.
 inline bool visible(const Geometry& geometry, const SurfacePoint& a, const SurfacePoint& b)
 {
     const Vec3 d = b.position - a.position;
@@ -20,8 +20,8 @@ inline bool visible(const Geometry& geometry, const SurfacePoint& a, const Surfa
     return !occluded(geometry, {from, end_at_surface(b, -d) - from, 1.0});
 }
 
-/// Whether nothing stands between a point on a surface and one in free space, which lies on the surfaces
-/// `b_on`. A triangle that holds both does not see b: the segment lies in it.
+/// Whether no surface lies between a point on a surface and a point in free space. The latter lies on
+/// the surfaces `b_on`. A triangle that contains both points hides b, since the segment lies in it.
 inline bool visible(const Geometry& geometry, const SurfacePoint& a, const Vec3& b,
                     std::span<const std::uint32_t> b_on = {})
 {
@@ -33,7 +33,7 @@ inline bool visible(const Geometry& geometry, const SurfacePoint& a, const Vec3&
     return !in_plane && !occluded(geometry, {b, end_at_surface(a, d) - b, 1.0, b_on});
 }
 
-/// Whether `light`, drawn for the surface at `point`, reaches it.
+/// Whether no surface lies between `light`, sampled for the surface at `point`, and that surface.
 inline bool visible(const Geometry& geometry, const SurfacePoint& point, const IncidentLight& light)
 {
     if (light.infinite) return !occluded(geometry, {leave_surface(point, light.wi), light.wi});

@@ -13,14 +13,16 @@ namespace ref {
 
 using scenes::Vec3;
 
-/// All points between two corners, faces included. The default is empty: the neutral element of `unite`.
+/// The box of all points between two corners, faces included. The default is the empty box, which is
+/// the neutral element of `unite`.
 struct Aabb {
     Vec3 lower = Vec3(std::numeric_limits<double>::infinity());
     Vec3 upper = Vec3(-std::numeric_limits<double>::infinity());
     friend bool operator==(const Aabb&, const Aabb&) = default;
 };
 
-/// The smallest box around both. Rounds nothing: all its coordinates are coordinates of `a` or `b`.
+/// The smallest box around both. Nothing is rounded: every coordinate of the result is a coordinate of
+/// `a` or of `b`.
 inline Aabb unite(const Aabb& a, const Aabb& b)
 {
     return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)};
@@ -36,7 +38,7 @@ inline bool is_empty(const Aabb& box)
     return box.lower.x > box.upper.x || box.lower.y > box.upper.y || box.lower.z > box.upper.z;
 }
 
-/// Half the surface area (all that ratios need); 0 for an empty box.
+/// Half the surface area; 0 for an empty box. The factor of 2 cancels in all ratios of areas.
 inline double half_area(const Aabb& box)
 {
     if (is_empty(box)) return 0;
@@ -44,7 +46,7 @@ inline double half_area(const Aabb& box)
     return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-/// The middle. Halves before it adds: does not overflow.
+/// The centre of the box. Each corner is halved before the addition, so the sum cannot overflow.
 inline Vec3 centroid(const Aabb& box)
 {
     return 0.5 * box.lower + 0.5 * box.upper;

@@ -28,7 +28,8 @@ void check(std::span<const Aabb> boxes)
     }
 }
 
-/// Codes, sorted; from them the radix tree; from the boxes of the primitives all others.
+/// Sorts the Morton codes, builds the radix tree over them, and computes all boxes from those of the
+/// primitives.
 Tree build_lbvh(std::span<const Aabb> boxes, int bits_per_axis)
 {
     std::vector<std::uint64_t> codes = morton_codes(boxes, bits_per_axis);
@@ -74,7 +75,8 @@ std::vector<Aabb> primitive_bounds(const scenes::Scene& scene)
 
 std::vector<std::uint64_t> morton_codes(std::span<const Aabb> boxes, int bits_per_axis)
 {
-    // The box of the centroids, not that of the scene: no part of the grid lies idle.
+    // The grid spans the box of the centroids, not the box of the scene, so that all of its cells can
+    // be used.
     Aabb grid;
     for (const Aabb& box : boxes) grid = unite(grid, {centroid(box), centroid(box)});
     std::vector<std::uint64_t> codes;

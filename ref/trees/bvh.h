@@ -1,6 +1,6 @@
 #pragma once
 
-// From boxes to a tree, by any of the builders.
+// Builds a tree over boxes, with any of the builders.
 
 #include "ref/trees/tree.h"
 
@@ -18,16 +18,16 @@ enum class Builder {
     sah_leaf, // the same with up to 8 primitives per leaf where that is expected to be cheaper
 };
 
-/// The box of every primitive, in the order of their numbers. Boxes of spheres are rounded outwards.
-/// Throws std::invalid_argument that names the first primitive with a coordinate that is NaN or
-/// infinite.
+/// The box of every primitive, in the order of the primitive numbers. The boxes of spheres are rounded
+/// outwards. Throws std::invalid_argument that names the first primitive with a coordinate that is NaN
+/// or infinite.
 std::vector<Aabb> primitive_bounds(const scenes::Scene& scene);
 
 /// The Morton codes of the boxes' centroids in the grid that spans all centroids.
 std::vector<std::uint64_t> morton_codes(std::span<const Aabb> boxes, int bits_per_axis);
 
-/// A tree over any number of boxes, none included. Flat, coincident and point-like boxes are legal.
-/// Throws std::invalid_argument that names the first box that is empty, or has a coordinate that is NaN
+/// A tree over any number of boxes, also over none. Flat, coincident and point-like boxes are legal.
+/// Throws std::invalid_argument that names the first box that is empty or has a coordinate that is NaN
 /// or infinite.
 Tree build(std::span<const Aabb> boxes, Builder builder);
 

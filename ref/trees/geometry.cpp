@@ -24,7 +24,7 @@ Geometry::Geometry(const scenes::Scene& scene, Builder builder, scenes::Coincide
 
 namespace {
 
-/// Whether `ray` comes from the side of the normal of `primitive`, which it meets at `t`.
+/// Whether `ray` reaches `primitive`, which it hits at `t`, from the side that the normal points to.
 bool comes_from_front(const scenes::Scene& scene, const Ray& ray, double t, std::uint32_t primitive)
 {
     if (primitive >= scene.triangles.size()) {
@@ -35,7 +35,8 @@ bool comes_from_front(const scenes::Scene& scene, const Ray& ray, double t, std:
     return glm::dot(glm::cross(v[1] - v[0], v[2] - v[0]), ray.direction) < 0;
 }
 
-/// Of the surfaces that coincide where `hit` is, the hit of the one that `ray` sees (scenes/contacts.h).
+/// `hit` is on one of several coincident surfaces. Returns the hit on the one of them that `ray` sees
+/// (scenes/contacts.h).
 Hit first_of_coincident(const Geometry& geometry, const Ray& ray, const Hit& hit)
 {
     const scenes::Scene& scene = geometry.scene();
@@ -47,7 +48,7 @@ Hit first_of_coincident(const Geometry& geometry, const Ray& ray, const Hit& hit
     const ShearedRay sheared(ray);
     Hit first = hit;
     for (const std::uint32_t other : geometry.coincident().of(hit.primitive)) {
-        std::optional<Hit> candidate = Hit{hit.t, other, Vec3(0)}; // a sphere is met everywhere
+        std::optional<Hit> candidate = Hit{hit.t, other, Vec3(0)}; // every ray hits a coincident sphere
         if (other < scene.triangles.size()) candidate = intersect_primitive(scene, ray, sheared, other);
         if (candidate && order(*candidate) < order(first)) first = *candidate;
     }
@@ -73,7 +74,7 @@ std::optional<Hit> intersect(const Geometry& geometry, const Ray& ray, Traversal
 bool sees_first(const Geometry& geometry, const SurfacePoint& point, const Vec3& towards)
 {
     if (geometry.coincident().of(point.primitive).empty()) return true;
-    // From a diagonal away, so that no bound on t is near the surface.
+    // The ray starts one diagonal away, so that neither bound on t is near the surface.
     const Ray ray{point.position + geometry.diagonal() * towards, -towards};
     const Hit hit{geometry.diagonal(), point.primitive, Vec3(0)};
     return first_of_coincident(geometry, ray, hit).primitive == point.primitive;
@@ -91,43 +92,53 @@ bool occluded(const Geometry& geometry, const Ray& ray, TraversalCounts* counts)
     return hit;
 }
 
-// How far must a point be from a surface so that rays may start and segments end there?
+// How far must a point be from a surface so that rays can start and segments can end there?
 //
-// Let u be the unit roundoff. Distances count along the normal n; a bound e_i per coordinate makes
-// sum |n_i| e_i. Of a triangle let a_i be the extent of its box along axis i, and a the largest of them.
+// Let u be the unit roundoff. Distances are measured along the normal n. A bound e_i on the error of
+// each coordinate gives the bound sum |n_i| e_i along n. For a triangle, a_i is the extent of its box
+// along axis i, and a is the largest a_i.
 //
-// 1. The computed position. On a triangle, the weights U/det, V/det, W/det of the doubles U, V, W are
-//    those of a point inside the triangle, wherever the ray really met it. It is computed as v0 + (b1
-//    e1 + b2 e2): each b carries 3 roundings (two in det, one division), each e 1, product and inner
-//    sum 2, and stating the bound with the computed b one more, gamma_7 (b1 |e1| + b2 |e2|); the outer
-//    sum rounds by u |p|. On a sphere it is c + r (w / |w|): |w| carries 3, division and product 2,
-//    gamma_5 r |n_i|, and the sum u |p|.
-// 2. The origin o = p + s n is rounded by u |o|, which is u |p| but for terms of second order.
-// 3. A query answers exactly, but for perturbed vertices: intersect_triangle decides exactly whether
-//    the ray passes inside the sheared vertices, and reports no t that rounding could have carried
-//    across 0 or t_max. So a ray cannot hit if the perturbed vertices all lie strictly below a plane
-//    parallel to the triangle, below which the ray does not go; and likewise a segment that has both
-//    ends above it. A vertex at m = v - o is perturbed along an axis i across the ray by u |m_i| (the
-//    difference), 3 u |m| (S, the product, and of the last difference the part of m_z) and u |m_i| (the
-//    other part), and with t, which carries 2 roundings, by 2 u |m|: 2 u |m_i| + 5 u |m|, where |m| is
-//    the largest component. Along the longest axis it is 3 u |m|.
-//    Where a ray starts, on the triangle, |m_i| <= a_i: 2 u a_i + 5 u a. The size of the scene does not
-//    count. Where a segment d ends on it, |m_i| <= |d_i| + a_i, t - t_max adds u |d_i|, and the rounded
-//    direction another: 4 u |d_i| + 5 u |d| more, which along n is less than 12.7 u |d| (now the
-//    Euclidean length): the end is 16 u |d| further off than a start.
-//    The sphere test errs less. Where a ray starts, f = o - c errs by u r, (b/a) d and l by u r each,
-//    |l|^2 and r^2 like 3 u r: 6 u r; the sign of |f|^2 - r^2 is certain from 4 u r on. Where a segment
-//    ends, |f| <= |d| + r: 3 u |d| more, and 3 u |d| for t_max and direction.
-// 4. Rounding in s n, and the error of n, are of second order: counting 6 u a for 5 u a and 8 u r for
-//    6 u r covers them.
-// 5. A surface that coincides with this one may be larger: then a and r are the diagonal of the scene.
-//    A neighbour in the same plane needs no more than this triangle does, where they share an edge: next
-//    to it the plane of the neighbour as perturbed is that of the edge's ends.
+// 1. The computed position.
+//    On a triangle, the computed U, V, W are rounded, but their weights U/det, V/det, W/det are still
+//    the weights of a point inside the triangle, wherever the ray really met it. The position is
+//    computed as v0 + (b1 e1 + b2 e2). Each b carries 3 roundings (two in det, one in the division),
+//    each e carries 1, and the product and the inner sum carry 2. The bound is computed from the
+//    rounded b, which costs one more: gamma_7 (b1 |e1| + b2 |e2|). The outer sum adds u |p|.
+//    On a sphere the position is c + r (w / |w|). Here |w| carries 3 roundings, and the division and
+//    the product carry 2: gamma_5 r |n_i|. The sum adds u |p|.
+// 2. The origin o = p + s n is rounded by u |o|, which equals u |p| up to terms of second order.
+// 3. A query is exact for perturbed vertices.
+//    intersect_triangle decides exactly whether the ray passes inside the sheared vertices, and it
+//    reports no t that rounding could have moved across 0 or t_max. So a ray cannot hit the triangle
+//    if all perturbed vertices lie strictly below a plane parallel to the triangle and the ray does
+//    not go below that plane. The same holds for a segment that has both ends above the plane.
+//    Let m = v - o for a vertex v, and let |m| be the largest component of m. Along an axis i across
+//    the ray, the vertex is perturbed
+//      by u |m_i| in the difference v - o,
+//      by 3 u |m| in S, in the product, and in the m_z part of the last difference,
+//      by u |m_i| in the other part of the last difference,
+//      by 2 u |m| along the ray, because t carries 2 roundings.
+//    The sum is 2 u |m_i| + 5 u |m|. Along the longest axis it is 3 u |m|.
+//    Where a ray starts on the triangle, |m_i| <= a_i: the sum is 2 u a_i + 5 u a. The size of the
+//    scene does not matter.
+//    Where a segment d ends on the triangle, |m_i| <= |d_i| + a_i. The comparison of t with t_max
+//    adds u |d_i|, and the rounded direction adds another u |d_i|. This is 4 u |d_i| + 5 u |d| more
+//    than at a start, which along n is less than 12.7 u |d| (where |d| is now the Euclidean length).
+//    So the end of a segment is placed 16 u |d| farther off than a start.
+//    The errors of the sphere test are smaller. Where a ray starts, f = o - c has an error of u r,
+//    (b/a) d and l have one of u r each, and |l|^2 and r^2 act like 3 u r: 6 u r in total. The sign
+//    of |f|^2 - r^2 is certain from 4 u r on. Where a segment ends, |f| <= |d| + r, which adds
+//    3 u |d|, and t_max and the direction add another 3 u |d|.
+// 4. The rounding in s n and the error of n are of second order. Counting 6 u a for 5 u a, and 8 u r
+//    for 6 u r, covers them.
+// 5. A surface that coincides with this one may be larger. In that case a and r are the diagonal of
+//    the scene. A neighbour in the same plane needs no more than this triangle does where they share
+//    an edge: next to the edge, the plane of the perturbed neighbour is that of the ends of the edge.
 //
-// What no offset can promise: n itself is wrong by an angle of about 4 u times the triangle's aspect
-// ratio (longest edge over smallest height). To which side a direction closer to the surface points is
-// not known. An end that is no surface (a camera, a point light) needs no offset: the surfaces that it
-// lies on are known by name (Ray::on).
+// The limit of every offset: n itself is wrong by an angle of about 4 u times the aspect ratio of the
+// triangle (longest edge over smallest height). For a direction closer to the surface than that angle,
+// the side to which it points is unknown. A path end that is not on a surface (a camera, a point
+// light) needs no offset: Ray::on lists the surfaces that it lies on.
 
 SurfacePoint triangle_point(const Geometry& geometry, std::uint32_t triangle, const Vec3& barycentric)
 {

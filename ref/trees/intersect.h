@@ -1,7 +1,8 @@
 #pragma once
 
-// Where a ray meets one triangle or one sphere. No constant here has a unit: scaling a scene by a power
-// of two scales every t by it, bit for bit, as long as no product of three lengths over- or underflows.
+// The intersection of a ray with one triangle or one sphere. No constant here has a unit: scaling a
+// scene by a power of two scales every t by it, bit for bit, as long as no product of three lengths
+// overflows or underflows.
 //
 // Triangles: [Woop, Benthin, Wald 2013]. Names follow the paper: kx, ky, kz, S, A, B, C, U, V, W, T,
 // det. Spheres: [Haines, Guenther, Akenine-Moeller 2019].
@@ -19,8 +20,8 @@
 
 namespace ref {
 
-/// A ray with what the triangle test needs of it: the axis z along which it is longest, and the shear
-/// that makes it the z axis [Woop et al. 2013, sec. 3.1].
+/// A ray prepared for the triangle test: the axis z along which its direction is longest, and the
+/// shear that turns the ray into the z axis [Woop et al. 2013, sec. 3.1].
 struct ShearedRay {
     explicit ShearedRay(const Ray& ray) : origin(ray.origin), t_max(ray.t_max)
     {
@@ -33,7 +34,8 @@ struct ShearedRay {
         S = Vec3(axis[kx] / axis[kz], axis[ky] / axis[kz], 1 / axis[kz]);
     }
 
-    /// `vertex` seen from the ray: x and y across it, z the t at which the ray is level with the vertex.
+    /// `vertex` relative to the ray: x and y across the ray, z the value of t at which the ray is
+    /// level with the vertex.
     [[nodiscard]] Vec3 shear(const Vec3& vertex) const
     {
         const Vec3 moved = vertex - origin;
@@ -52,8 +54,8 @@ struct TriangleHit {
     Vec3 barycentric;
 };
 
-/// px qy - py qx to within two units of roundoff, whatever cancels: Kahan's determinant, with the
-/// rounding errors of both products, which fma gives exactly [Jeannerod, Louvet, Muller 2013].
+/// px qy - py qx, correct to two units of roundoff even under cancellation: Kahan's determinant, with
+/// the rounding errors of both products, which fma gives exactly [Jeannerod, Louvet, Muller 2013].
 inline double accurate_edge_function(const Vec3& p, const Vec3& q)
 {
     const double right = p.y * q.x;
@@ -61,23 +63,26 @@ inline double accurate_edge_function(const Vec3& p, const Vec3& q)
     return std::fma(p.x, q.y, -right) - error_of_right;
 }
 
-/// px qy - py qx: on which side of the line from `q` to `p` the ray passes. The sign is exact.
+/// px qy - py qx: tells on which side of the line from `q` to `p` the ray passes. The sign is exact.
 ///
-/// Rounding keeps order: where the exact products differ in one sense, the rounded ones do not differ in
-/// the other, so a difference that is not 0 has the right sign. Where it is 0 the accurate one decides.
-/// (Single precision computes again in double [Woop et al. 2013, sec. 3.3]; this is that step where
-/// there is no wider type.) The two triangles at an edge see opposite signs: no ray slips between them.
+/// Rounding is monotonic: if one exact product is larger, its rounded value is not smaller. So a
+/// difference of rounded products that is not 0 has the right sign; where it is 0, the accurate
+/// difference decides. (With single precision, this step is computed again in double [Woop et al.
+/// 2013, sec. 3.3]; here there is no wider type.) The two triangles at a shared edge get opposite
+/// signs, so no ray passes between them.
 inline double edge_function(const Vec3& p, const Vec3& q)
 {
     const double difference = p.x * q.y - p.y * q.x;
     return difference != 0 ? difference : accurate_edge_function(p, q);
 }
 
-/// Whether `limit` is beyond the hit: U (a - limit) + V (b - limit) + W (c - limit) has the opposite
-/// sign of U, V and W in spite of all rounding in it. z holds a, b, c: the t of the vertices.
+/// Whether `limit` is certainly beyond the hit: U (a - limit) + V (b - limit) + W (c - limit) has the
+/// opposite sign of U, V and W, even with all its rounding errors. `z` holds a, b, c: the t of the
+/// vertices.
 ///
-/// Clear if all vertices are on one side. Otherwise U carries 2 roundings, the difference 1, the product
-/// 1 and the sum 2; the bound as computed carries as many again: gamma_12.
+/// This is clear if all vertices are on one side of `limit`. Otherwise U carries 2 roundings, the
+/// difference 1, the product 1 and the sum 2. The computed bound carries as many again, in total
+/// gamma_12.
 inline bool certainly_before(const Vec3& UVW, const Vec3& z, double limit)
 {
     const Vec3 terms = UVW * (z - limit);
@@ -87,10 +92,11 @@ inline bool certainly_before(const Vec3& UVW, const Vec3& z, double limit)
     return (negative ? -sum : sum) < -gamma_bound(12) * size;
 }
 
-/// Watertight: the triangle with its edges and corners counts, decided by exact signs of U, V, W. Both
-/// sides count. A hit is reported only where rounding leaves no doubt that 0 < t < t_max: a ray that
-/// starts on one side of a plane, by however little, does not hit it by going further to that side
-/// (leave_surface in geometry.cpp counts on it). A triangle seen exactly edge-on is not hit.
+/// Watertight: edges and corners belong to the triangle, decided by the exact signs of U, V, W. The
+/// ray may come from either side. A hit is reported only if 0 < t < t_max is certain in spite of
+/// rounding: a ray that starts on one side of a plane, however close, does not hit it by going further
+/// to that side (leave_surface in geometry.cpp relies on this). A triangle seen exactly edge-on is not
+/// hit.
 inline std::optional<TriangleHit> intersect_triangle(const ShearedRay& ray,
                                                      const std::array<Vec3, 3>& triangle)
 {
@@ -102,10 +108,10 @@ inline std::optional<TriangleHit> intersect_triangle(const ShearedRay& ray,
     const double W = edge_function(B, A);
     if (std::min({U, V, W}) < 0 && std::max({U, V, W}) > 0) return std::nullopt;
 
-    // The ray passes inside. Slivers need the weights themselves, not only their signs.
+    // The ray passes inside. A sliver needs accurate weights, not only their signs.
     const Vec3 UVW(accurate_edge_function(C, B), accurate_edge_function(A, C),
                    accurate_edge_function(B, A));
-    const double det = UVW.x + UVW.y + UVW.z; // no cancellation: 0 only if all three are
+    const double det = UVW.x + UVW.y + UVW.z; // no cancellation: det is 0 only if all three are 0
     const Vec3 z(A.z, B.z, C.z);
     if (det == 0 || !certainly_before(UVW, -z, 0)) return std::nullopt; // t > 0 is -t < 0
     if (std::isfinite(ray.t_max) && !certainly_before(UVW, z, ray.t_max)) return std::nullopt;
@@ -118,9 +124,10 @@ inline std::optional<TriangleHit> intersect_triangle(const ShearedRay& ray,
 
 /// The smallest t with 0 < t < t_max at which the ray crosses the sphere's surface, from either side.
 ///
-/// The textbook's discriminant b^2 - ac loses all digits of a small or distant sphere. Here it is
-/// r^2 - |l|^2, l from the centre to the nearest point of the ray's line; and of the two roots of
-/// a t^2 - 2 b t + c the one that would cancel comes from their product c / a.
+/// The textbook's discriminant b^2 - ac loses all digits for a small or distant sphere. Here it is r^2
+/// - |l|^2, where l points from the centre to the nearest point of the ray's line. Of the two roots of
+/// a t^2 - 2 b t + c, the one that would suffer from cancellation is computed from their product c /
+/// a.
 inline std::optional<double> intersect_sphere(const Ray& ray, const Vec3& center, double radius)
 {
     const Vec3 f = ray.origin - center;
@@ -130,7 +137,8 @@ inline std::optional<double> intersect_sphere(const Ray& ray, const Vec3& center
     const double discriminant = radius * radius - glm::dot(l, l);
     if (!(discriminant >= 0)) return std::nullopt;
     const double c = glm::dot(f, f) - radius * radius;
-    // Two roots: the product of their arguments has four lengths.
+    // Two separate roots: the product of their arguments would have four lengths as factors, and could
+    // overflow.
     const double q = b + std::copysign(std::sqrt(a) * std::sqrt(discriminant), b);
     const double t0 = c / q;
     const double t1 = q / a;
@@ -142,8 +150,8 @@ inline std::optional<double> intersect_sphere(const Ray& ray, const Vec3& center
     return std::nullopt;
 }
 
-/// The same for a ray whose origin lies on the sphere: one root of a t^2 - 2 b t is 0, the other 2 b /
-/// a.
+/// The same for a ray whose origin lies on the sphere: one root of a t^2 - 2 b t is 0, the other is 2
+/// b / a.
 inline std::optional<double> leave_sphere(const Ray& ray, const Vec3& center)
 {
     const double a = glm::dot(ray.direction, ray.direction);

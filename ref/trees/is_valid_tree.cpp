@@ -76,8 +76,8 @@ void check_links(const Tree& tree, Violations& violations)
     }
 }
 
-/// The nodes below the root in an order in which children come before their parents. Some are missing if
-/// the links have a cycle, which check_links alone does not see.
+/// The nodes below the root, ordered so that children come before their parents. Some nodes are
+/// missing if the links have a cycle, which check_links alone does not detect.
 std::vector<std::uint32_t> bottom_up(const Tree& tree)
 {
     std::vector<std::uint32_t> order;
@@ -93,7 +93,8 @@ std::vector<std::uint32_t> bottom_up(const Tree& tree)
     return order;
 }
 
-/// First and last leaf below each node; violations where the children's ranges do not adjoin.
+/// The first and the last leaf below each node. Adds a violation where the ranges of two children do
+/// not adjoin.
 std::vector<std::array<std::uint32_t, 2>> leaf_ranges(const Tree& tree, Violations& violations)
 {
     std::vector<std::array<std::uint32_t, 2>> ranges(tree.nodes.size());
@@ -158,7 +159,8 @@ std::vector<std::string> is_valid_radix_tree(const Tree& tree, Codes codes)
     for (std::uint32_t node = 0; node < tree.internal_count(); ++node)
         for (const std::uint32_t child : tree.nodes[node].children)
             if (!tree.is_leaf(child) && prefix(child) <= prefix(node))
-                violations.add("node ", child, " shares no longer prefix than its parent ", node);
+                violations.add("the common prefix of node ", child,
+                               " is not longer than that of its parent ", node);
     return violations.take();
 }
 

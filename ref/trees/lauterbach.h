@@ -1,7 +1,8 @@
 #pragma once
 
-// The same tree from the top down, by recursion: split where the highest differing bit of the range
-// changes from 0 to 1 [Lauterbach 2009, sec. 3.1]. Slow and short: the oracle of radix_tree.h.
+// The radix tree of radix_tree.h, built from the top down by recursion: each range is split where its
+// highest differing bit changes from 0 to 1 [Lauterbach 2009, sec. 3.1]. Slow and short; the tests
+// compare radix_tree with it.
 
 #include "ref/trees/radix_tree.h"
 
@@ -9,8 +10,8 @@
 
 namespace ref {
 
-/// The last key of the left half of sorted keys first to last (first < last). Keys are codes, then
-/// indices.
+/// The last key of the left half of the sorted keys first to last (first < last). A key is a code
+/// followed by its index.
 inline std::int64_t split_at_highest_differing_bit(Codes codes, std::int64_t first, std::int64_t last)
 {
     const auto halves = [&](const auto& bits_of) {
@@ -39,7 +40,7 @@ inline void lauterbach_subtree(Codes codes, std::vector<Node>& nodes, std::uint3
     lauterbach_subtree(codes, nodes, right, gamma + 1, last);
 }
 
-/// What radix_tree makes of the same codes.
+/// The same nodes that radix_tree returns for these codes.
 inline std::vector<Node> lauterbach_tree(Codes codes)
 {
     if (codes.empty()) return {};

@@ -1,6 +1,7 @@
 #pragma once
 
-// The closest hit by testing every primitive: what every tree must agree with, bit for bit.
+// The closest hit, found by testing every primitive. Queries with a tree must agree with it bit for
+// bit.
 
 #include "ref/trees/intersect_primitive.h"
 

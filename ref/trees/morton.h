@@ -1,8 +1,8 @@
 #pragma once
 
-// Morton codes: the bits of three cell coordinates interleaved, x first: x0 y0 z0 x1 y1 z1 ..., from the
-// most significant down. Sorting by code sorts points along a curve that stays local [Lauterbach 2009,
-// sec. 3.1].
+// Morton codes: the bits of three cell coordinates interleaved, x first: x0 y0 z0 x1 y1 z1 ..., from
+// the most significant down. Points sorted by code are close to their neighbours in space [Lauterbach
+// 2009, sec. 3.1].
 
 #include "ref/trees/aabb.h"
 
@@ -13,7 +13,7 @@
 
 namespace ref {
 
-/// Coordinates of a cell of the grid of 2^b cells per axis.
+/// The coordinates of a cell in a grid of 2^b cells per axis.
 using Cell = std::array<std::uint32_t, 3>;
 
 /// Moves bit i of the low 21 bits of `x` to bit 3 i: each step halves the groups and doubles the gaps.
@@ -51,8 +51,9 @@ inline Cell morton_decode(std::uint64_t code)
     return {gather_bits(code >> 2), gather_bits(code >> 1), gather_bits(code)};
 }
 
-/// Where `x` lies between `lower` and `upper`, from 0 to 1; 0 if there is nothing between them, so that
-/// a flat axis has one cell (and no 0/0). Halves what would overflow; finite for all finite numbers.
+/// The position of `x` between `lower` and `upper`, from 0 to 1; 0 if lower >= upper, so that a flat
+/// axis has one cell (and there is no 0/0). Halves its operands where the difference would overflow;
+/// finite for all finite numbers.
 inline double relative_position(double x, double lower, double upper)
 {
     if (!(lower < upper)) return 0;
@@ -60,12 +61,12 @@ inline double relative_position(double x, double lower, double upper)
     return (x / 2 - lower / 2) / (upper / 2 - lower / 2);
 }
 
-/// The cell of `point` in the grid of 2^bits cells per axis that `grid` is cut into.
+/// The cell of `point` in `grid`, which is divided into 2^bits_per_axis cells per axis.
 inline Cell cell_of(const Vec3& point, const Aabb& grid, int bits_per_axis)
 {
     const double cells = std::ldexp(1, bits_per_axis);
     const auto coordinate = [&](double x, double lower, double upper) {
-        // x = upper would fall into a cell of its own beyond the last.
+        // x = upper would give a cell number beyond the last one.
         return static_cast<std::uint32_t>(
             std::min(relative_position(x, lower, upper) * cells, cells - 1));
     };

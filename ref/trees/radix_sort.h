@@ -1,7 +1,7 @@
 #pragma once
 
-// Sorts keys digit by digit, the least significant first. Each pass is stable, so keys that agree in all
-// digits keep their order: among equal codes the lower index comes first.
+// Sorts keys digit by digit, the least significant digit first. Each pass is stable, so keys that
+// agree in all digits keep their order: among equal codes the lower index comes first.
 
 #include <array>
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace ref {
 
-/// Sorts `codes`, and takes `primitives` along: the two stay paired. Only the lowest `code_bits` bits of
-/// a code may be set.
+/// Sorts `codes` and moves `primitives` in the same way, so that the pairs stay together. Only the
+/// lowest `code_bits` bits of a code may be set.
 inline void radix_sort(std::vector<std::uint64_t>& codes, std::vector<std::uint32_t>& primitives,
                        int code_bits)
 {
-    constexpr int digit_bits = 11; // 2^11 counters and write positions stay in the first-level cache
+    constexpr int digit_bits = 11; // 2^11 counters and write positions fit into the first-level cache
     constexpr std::size_t digits = std::size_t{1} << digit_bits;
     std::vector<std::uint64_t> sorted_codes(codes.size());
     std::vector<std::uint32_t> sorted_primitives(codes.size());
@@ -23,7 +23,7 @@ inline void radix_sort(std::vector<std::uint64_t>& codes, std::vector<std::uint3
         std::array<std::size_t, digits> begin{};
         for (const std::uint64_t code : codes) ++begin[digit(code)];
         std::size_t sum = 0;
-        for (std::size_t& count : begin) { // from counts to where each digit's codes begin
+        for (std::size_t& count : begin) { // replaces counts by the place where each digit's codes begin
             const std::size_t first = sum;
             sum += count;
             count = first;

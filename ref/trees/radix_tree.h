@@ -1,10 +1,11 @@
 #pragma once
 
-// The binary radix tree over sorted keys, every node on its own [Karras 2012].
+// The binary radix tree over sorted keys; every node is computed independently of the others [Karras
+// 2012].
 //
 // Names follow the paper: delta (length of the longest common prefix), d (direction of the range), l
-// (its length), s (distance of the split), gamma (its position), i and j (ends of the range). Keys are
-// the codes, followed by their index: it breaks ties below every bit of the code, so that all keys
+// (its length), s (distance of the split), gamma (its position), i and j (ends of the range). A key is
+// a code followed by its index. The index breaks ties below every bit of the code, so that all keys
 // differ and the tree is unique.
 
 #include "ref/trees/tree.h"
@@ -25,12 +26,12 @@ inline int delta(Codes codes, std::int64_t i, std::int64_t j)
     const std::uint64_t a = codes[static_cast<std::size_t>(i)];
     const std::uint64_t b = codes[static_cast<std::size_t>(j)];
     if (a != b) return std::countl_zero(a ^ b);
-    // The same tie-break in every call [Karras 2012, sec. 4]: one comparison without it, and a node has
-    // two parents and another has none.
+    // The tie-break must be the same in every call [Karras 2012, sec. 4]. A single comparison without
+    // it gives one node two parents and leaves another without any.
     return 64 + std::countl_zero(static_cast<std::uint32_t>(i) ^ static_cast<std::uint32_t>(j));
 }
 
-/// The keys first to last that a node covers, and the key that its left child ends with.
+/// The range of keys, first to last, that a node covers, and gamma, the last key of its left child.
 struct RadixNode {
     std::int64_t first, last, gamma;
 };
@@ -38,12 +39,14 @@ struct RadixNode {
 /// Internal node i < n - 1 of the tree over n sorted codes [Karras 2012, fig. 4].
 inline RadixNode radix_node(Codes codes, std::int64_t i)
 {
-    // The range extends from i to the side whose neighbour shares more; the other neighbour belongs to a
-    // sibling, and its delta bounds from below what the keys of this node share.
+    // The range extends from i towards the neighbour with the longer common prefix. The other
+    // neighbour belongs to a sibling; its delta is a strict lower bound on the prefix that the keys of
+    // this node share.
     const int d = delta(codes, i, i + 1) > delta(codes, i, i - 1) ? 1 : -1;
     const int delta_min = delta(codes, i, i - d);
 
-    // Its length: double until beyond the end, then search the bits of l from the highest.
+    // The length of the range: double l_max until it is beyond the end, then find the bits of l from
+    // the highest.
     std::int64_t l_max = 2;
     while (delta(codes, i, i + l_max * d) > delta_min) l_max *= 2;
     std::int64_t l = 0;
@@ -51,7 +54,7 @@ inline RadixNode radix_node(Codes codes, std::int64_t i)
         if (delta(codes, i, i + (l + t) * d) > delta_min) l += t;
     const std::int64_t j = i + l * d;
 
-    // The split: the farthest key that shares more with key i than key j does.
+    // The split: the farthest key whose common prefix with key i is longer than that of key j.
     const int delta_node = delta(codes, i, j);
     std::int64_t s = 0;
     std::int64_t t = l;
@@ -63,8 +66,8 @@ inline RadixNode radix_node(Codes codes, std::int64_t i)
     return {std::min(i, j), std::max(i, j), gamma};
 }
 
-/// The node number of the child that covers keys first to last: a leaf, or else the internal node that
-/// bears the number of the end next to its parent's split [Karras 2012, sec. 3].
+/// The node number of the child that covers keys first to last: a leaf, or the internal node whose
+/// number is the end of the range next to its parent's split [Karras 2012, sec. 3].
 inline std::uint32_t radix_child(std::int64_t first, std::int64_t last, std::int64_t at_split,
                                  std::size_t n)
 {
@@ -72,8 +75,8 @@ inline std::uint32_t radix_child(std::int64_t first, std::int64_t last, std::int
     return static_cast<std::uint32_t>(first == last ? leaves_begin + first : at_split);
 }
 
-/// The nodes of the tree over `codes`, which must be sorted: children and parents.
-/// 2 n - 1 nodes, numbered as in tree.h; none for n = 0. Depth at most code bits + ceil(log2 n).
+/// The nodes (children and parents) of the tree over `codes`, which must be sorted. There are 2 n - 1
+/// nodes, numbered as in tree.h, and 0 for n = 0. The depth is at most code bits + ceil(log2 n).
 inline std::vector<Node> radix_tree(Codes codes)
 {
     const std::size_t n = codes.size();

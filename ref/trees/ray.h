@@ -1,7 +1,7 @@
 #pragma once
 
-// Rays and what they find. A ray's direction need not have unit length: `t` counts in its multiples, so
-// that the segment from p to q is the ray (p, q - p) with t_max = 1.
+// Rays and hits. The direction of a ray need not have unit length: `t` is measured in multiples of it,
+// so that the segment from p to q is the ray (p, q - p) with t_max = 1.
 
 #include "scenes/scene.h"
 
@@ -15,8 +15,8 @@ using scenes::Rgb;
 using scenes::Vec3;
 
 /// The points origin + t * direction with 0 < t < t_max. `on`: primitives on which the origin lies, as
-/// far as rounding can tell (scenes/contacts.h). The ray does not meet them there: a triangle not at
-/// all, a sphere only on its far side.
+/// far as rounding can tell (scenes/contacts.h). The ray does not hit these at its origin: it cannot
+/// hit such a triangle at all, and such a sphere only on the far side.
 struct Ray {
     Vec3 origin;
     Vec3 direction;
@@ -24,7 +24,7 @@ struct Ray {
     std::span<const std::uint32_t> on = {};
 };
 
-/// Where a ray meets a primitive (numbered as by scenes::primitive_count).
+/// The point where a ray hits a primitive (numbered as by scenes::primitive_count).
 struct Hit {
     double t;
     std::uint32_t primitive;
@@ -34,7 +34,7 @@ struct Hit {
 /// A point on a surface, in world space.
 struct SurfacePoint {
     Vec3 position;
-    Vec3 error;  // per coordinate, how far the surface that rays meet can be from `position`
+    Vec3 error;  // per coordinate, the largest distance of the true surface from `position`
     Vec3 normal; // unit geometric normal: by winding for a triangle, outward for a sphere
     std::uint32_t primitive;
     std::uint32_t material;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Boxes from the leaves up to the root, each inner box once both its children's are known
-// [Karras 2012, sec. 4; after Apetrei 2014 for the counting].
+// Computes boxes from the leaves up to the root: the box of an internal node follows once both
+// children have theirs [Karras 2012, sec. 4; the counting follows Apetrei 2014].
 
 #include "ref/trees/tree.h"
 
@@ -11,11 +11,12 @@
 
 namespace ref {
 
-/// Sets all boxes of `tree` from those of the primitives. Every leaf walks towards the root. Of the two
-/// walks that arrive at a node the first stops there, since the other child has no box yet; the second
-/// unites the boxes and goes on. `leaf_order` is the order in which leaves set out, any permutation of
-/// them: the boxes do not depend on it. (In parallel the count must be one atomic step that also
-/// publishes the child's box; without it the second walk may read a box that is not there yet.)
+/// Sets all boxes of `tree` from those of the primitives. From every leaf a walk goes towards the
+/// root. Of the two walks that arrive at a node the first stops there, since the other child has no
+/// box yet; the second unites the boxes and goes on. `leaf_order` is the order in which the walks are
+/// started, any permutation of the leaves; the boxes do not depend on it. (In parallel, the count must
+/// be one atomic operation that also publishes the child's box. Otherwise the second walk may read the
+/// box before it is written.)
 inline void refit(Tree& tree, std::span<const Aabb> primitive_bounds,
                   std::span<const std::uint32_t> leaf_order)
 {

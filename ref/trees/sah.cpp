@@ -10,8 +10,8 @@ namespace ref {
 
 namespace {
 
-/// The same primitives in the order of their centroids along x, y and z. Splitting a node divides its
-/// range of each list in two, in order: nothing is sorted twice.
+/// The same primitives three times, in the order of their centroids along x, y and z. Splitting a node
+/// divides its range of each list in two and keeps the order, so nothing is sorted twice.
 using SortedLists = std::array<std::vector<std::uint32_t>, 3>;
 
 SortedLists sort_along_axes(std::span<const Aabb> boxes)
@@ -29,22 +29,22 @@ SortedLists sort_along_axes(std::span<const Aabb> boxes)
     return lists;
 }
 
-/// `left` primitives in the order of `axis` go to the left child. `cost` is A_left N_left + A_right
-/// N_right: the expected number of primitives tested, times the area of the node.
+/// The first `left` primitives in the order of `axis` go to the left child. `cost` is A_left N_left +
+/// A_right N_right: the expected number of primitives tested, times the area of the node.
 struct Split {
     std::size_t axis;
     std::size_t left;
     double cost;
 };
 
-/// How far the sizes of the children are from each other.
+/// The difference between the sizes of the two children.
 std::size_t imbalance(const Split& split, std::size_t count)
 {
     return std::max(2 * split.left, count) - std::min(2 * split.left, count);
 }
 
-/// The best of all splits of `count` primitives from `first` on; the most balanced of several equally
-/// good, so that coincident boxes do not make a chain.
+/// The best of all splits of `count` primitives from `first` on. Of several splits of equal cost it is
+/// the most balanced one, so that coincident boxes do not give a long chain of nodes.
 Split best_split(std::span<const Aabb> boxes, const SortedLists& lists, std::size_t first,
                  std::size_t count, std::vector<double>& right_cost)
 {
@@ -68,7 +68,7 @@ Split best_split(std::span<const Aabb> boxes, const SortedLists& lists, std::siz
     return best;
 }
 
-/// Primitives `first` on of every list, waiting to become a node.
+/// The range of each list, from `first` on, for which a node is still to be made.
 struct Task {
     std::size_t first;
     std::size_t count;
@@ -77,8 +77,8 @@ struct Task {
     int depth;
 };
 
-/// Below this depth nodes are cut in halves: so the depth, and with it the time to build, is bounded
-/// even for inputs where the best split always takes away a single primitive.
+/// Below this depth nodes are split in halves. This bounds the depth and the build time even for
+/// inputs where the best split always separates a single primitive.
 constexpr int max_sah_depth = 64;
 
 } // namespace
@@ -135,7 +135,7 @@ Tree build_sah(std::span<const Aabb> boxes, std::size_t max_leaf_size)
             std::copy_if(scratch.begin(), scratch.end(), middle,
                          [&](std::uint32_t p) { return goes_left[p] == 0; });
         }
-        // The left child comes off the list first: leaves are numbered from left to right.
+        // The left child is pushed last and taken first, so leaves are numbered from left to right.
         tasks.push_back({task.first + split.left, task.count - split.left, number, 1, task.depth + 1});
         tasks.push_back({task.first, split.left, number, 0, task.depth + 1});
     }

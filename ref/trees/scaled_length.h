@@ -7,15 +7,15 @@
 
 namespace ref {
 
-/// The length of `v`, also where the squares of its components would leave the range of doubles: as
-/// those of areas do, which are products of four lengths.
+/// The length of `v`, also where the squares of its components overflow or underflow. This happens for
+/// areas, whose squares are products of four lengths.
 inline double scaled_length(const scenes::Vec3& v)
 {
     const double largest = scenes::largest_component(v);
     return largest > 0.0 ? largest * glm::length(v / largest) : 0.0;
 }
 
-/// `v`, which is not 0, to unit length.
+/// `v` scaled to unit length; `v` must not be 0.
 inline scenes::Vec3 scaled_normalize(const scenes::Vec3& v)
 {
     return glm::normalize(v / scenes::largest_component(v));

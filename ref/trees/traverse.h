@@ -1,6 +1,6 @@
 #pragma once
 
-// A ray's way through a tree: into every box that it enters, the nearer child first.
+// Traversal of a tree by a ray: it visits every box that the ray enters, the nearer child first.
 
 #include "ref/trees/ray.h"
 #include "ref/trees/rounding.h"
@@ -14,16 +14,16 @@
 
 namespace ref {
 
-/// A ray made ready to be tested against boxes, slab by slab [Kay and Kajiya 1986].
+/// A ray prepared for tests against boxes, slab by slab [Kay and Kajiya 1986].
 ///
-/// The test must not miss what intersect.h hits, and that sees primitives perturbed by rounding. Let u
-/// be the unit roundoff and m the largest coordinate of b - o, o the origin, over all corners b of the
-/// root's box. The point of a hit, o + t d for the t that is reported, lies within 15 u m of the
-/// triangle's box on every axis: 7 u m for the shear (see geometry.cpp), 8 u m for the roundings of the
-/// weights and the sum in t, of which all else is exact for the perturbed triangle. For a sphere, |l|
-/// and c carry 12 u m. Here the subtraction b - o, the reciprocal and the product carry 1 u m each. So
-/// boxes are padded by 32 u m on each side, and no comparison needs a tolerance. (For float, and boxes
-/// alone: [Ize 2013].)
+/// The box test must not miss a hit of intersect.h, whose test acts on primitives perturbed by
+/// rounding. Let u be the unit roundoff, o the origin, and m the largest coordinate of b - o over all
+/// corners b of the root's box. The point of a hit, o + t d for the t that is reported, lies within 15
+/// u m of the triangle's box on every axis: 7 u m for the shear (see geometry.cpp), and 8 u m for the
+/// roundings of the weights and of the sum in t; everything else is exact for the perturbed triangle.
+/// For a sphere, |l| and c carry 12 u m. Here the subtraction b - o, the reciprocal and the product
+/// carry 1 u m each. So boxes are padded by 32 u m on each side, and no comparison needs a tolerance.
+/// (For float, and for boxes alone, see [Ize 2013].)
 class Slabs {
 public:
     Slabs(const Ray& ray, const Aabb& root) : origin_(ray.origin), reciprocal_(1.0 / ray.direction)
@@ -32,7 +32,7 @@ public:
         padding_ = Vec3(32 * unit_roundoff * std::max({reach.x, reach.y, reach.z}));
     }
 
-    /// The smallest t >= 0 at which the ray is in `box`, or infinity if there is none.
+    /// The smallest t >= 0 at which the ray is in `box`, or infinity if it misses the box.
     [[nodiscard]] double entry(const Aabb& box) const
     {
         const Vec3 lower = (box.lower - origin_ - padding_) * reciprocal_;
@@ -40,10 +40,10 @@ public:
         double near = 0;
         double far = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
-            const bool descending = reciprocal_[axis] < 0; // true for -1/0: -0 is handled as it comes
+            const bool descending = reciprocal_[axis] < 0; // a direction of -0 gives -infinity: true
             const double enter = descending ? upper[axis] : lower[axis];
             const double leave = descending ? lower[axis] : upper[axis];
-            // 0 * infinity, a ray in the very face of the slab, is NaN: these comparisons pass it over.
+            // A ray in a face of the slab gives 0 * infinity = NaN, which both comparisons ignore.
             if (enter > near) near = enter;
             if (leave < far) far = leave;
         }
@@ -69,10 +69,11 @@ struct TraversalCounts {
 };
 
 /// Calls `test(primitive)` for the primitives of every leaf whose box the ray enters at a t <= limit.
-/// `test` returns the limit from then on: the t of the closest hit so far, or a negative number to stop.
+/// The limit starts at t_max. `test` returns the new limit: the t of the closest hit so far, or a
+/// negative number to stop.
 ///
-/// Boxes that are entered exactly at the limit are looked at: they may hold a primitive of lower number
-/// at the same t. The stack grows as it must; the tree may have any depth.
+/// A box that the ray enters exactly at the limit is visited too, because it may hold a primitive of
+/// lower number at the same t. The stack grows as needed, so the tree may have any depth.
 template <typename Test>
 TraversalCounts traverse(const Tree& tree, const Ray& ray, Test test)
 {
@@ -85,7 +86,7 @@ TraversalCounts traverse(const Tree& tree, const Ray& ray, Test test)
         double t;
         std::uint32_t node;
     };
-    std::array<std::byte, 64 * sizeof(Entry)> buffer; // enough for most trees; from the heap beyond
+    std::array<std::byte, 64 * sizeof(Entry)> buffer; // enough for most trees; then the heap is used
     std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
     std::pmr::vector<Entry> stack(&memory);
     stack.reserve(64);
@@ -98,7 +99,7 @@ TraversalCounts traverse(const Tree& tree, const Ray& ray, Test test)
     while (!stack.empty()) {
         const Entry entry = stack.back();
         stack.pop_back();
-        if (!(entry.t <= limit)) continue; // something nearer has been found meanwhile
+        if (!(entry.t <= limit)) continue; // a closer hit has been found since
         ++counts.nodes;
         if (tree.is_leaf(entry.node)) {
             const std::uint32_t leaf = tree.leaf(entry.node);

@@ -1,6 +1,6 @@
 #pragma once
 
-// What every builder makes and everything else reads: a binary tree of boxes over primitives.
+// The binary tree of boxes over primitives that every builder returns.
 
 #include "ref/trees/aabb.h"
 
@@ -10,7 +10,7 @@
 
 namespace ref {
 
-/// Stands for a node that is not there: the parent of the root, the children of a leaf.
+/// Marks a missing node: the parent of the root, and the children of a leaf.
 constexpr std::uint32_t no_node = 0xffff'ffff;
 
 struct Node {
@@ -19,10 +19,10 @@ struct Node {
     friend bool operator==(const Node&, const Node&) = default;
 };
 
-/// A binary tree with L leaves has L - 1 internal nodes: they come first, the root is node 0, and leaf l
-/// is node L - 1 + l. Leaves are numbered from left to right, so that every node covers a contiguous
-/// range of them. Leaf l holds primitives[leaf_begin[l]] to primitives[leaf_begin[l + 1] - 1]. No
-/// primitives: no nodes. One leaf: it is the root.
+/// A binary tree with L leaves has L - 1 internal nodes. They come first; the root is node 0, and leaf
+/// l is node L - 1 + l. Leaves are numbered from left to right, so that every node covers a contiguous
+/// range of them. Leaf l holds primitives[leaf_begin[l]] to primitives[leaf_begin[l + 1] - 1]. A tree
+/// over no primitives has no nodes; in a tree with one leaf, the leaf is the root.
 struct Tree {
     std::vector<Node> nodes;
     std::vector<Aabb> bounds;              // one per node

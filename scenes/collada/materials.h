@@ -13,17 +13,15 @@
 
 namespace scenes::collada {
 
-/// What a <material> means. In this order:
+/// The meaning of a <material>. In this order:
 ///   1. <extra><technique profile="CMU462"> in its effect: <mirror>, <glass> or <emission>; a rough
-///   glass
-///      and <refraction> are errors.
+///      glass and <refraction> are errors.
 ///   2. A non-zero <emission> of the common profile, if <diffuse> is black or absent: emission. With
-///   both
-///      the surface would emit and reflect, which no material here does: an error.
+///      both, the surface would emit and reflect, which no material here does: an error.
 ///   3. The <diffuse> colour of the common profile: Lambertian.
 /// Textures and transparency would change the picture and are errors. The other channels (ambient,
 /// specular, shininess, reflective, reflectivity, index_of_refraction) are ignored: that is the
-/// convention of the CMU462 files, whose exporter fills them in regardless.
+/// convention of the CMU462 files, whose exporter always writes them.
 Material read_material(const Document& document, const Element& material);
 
 /// The materials of a scene: each is read once, when first used.

@@ -18,7 +18,7 @@ std::vector<Step> lbvh_steps(const std::vector<ref::Aabb>& boxes)
     const auto codes =
         std::make_shared<const std::vector<std::uint64_t>>(ref::morton_codes(boxes, bits_per_axis));
     const auto tree = std::make_shared<const ref::Tree>(ref::build(boxes, ref::Builder::morton30));
-    const auto sorted = std::make_shared<std::vector<std::uint64_t>>(); // as the tree has them
+    const auto sorted = std::make_shared<std::vector<std::uint64_t>>(); // in the order of the tree
     for (const std::uint32_t primitive : tree->primitives) sorted->push_back((*codes)[primitive]);
 
     return {{"codes",

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the time of an LBVH build goes.
+// The parts of the time of an LBVH build.
 
 #include "ref/trees/aabb.h"
 
@@ -10,16 +10,16 @@
 
 namespace bench {
 
-/// A part of build_lbvh as a function to be timed; its input is made beforehand.
+/// A part of build_lbvh as a function to be timed; its input is prepared beforehand.
 struct Step {
     std::string name;
     std::function<void()> run;
 };
 
 /// The steps over `boxes`, which must outlive them, with 10 bits per axis, in the order of build_lbvh.
-/// Together they do the work of a build, but for the look at the input and some lists of indices. The
-/// last, "first touch", is a part of "refit" once more: filling memory for all boxes that is new to the
-/// process.
+/// Together they do the work of a build, except for the check of the input and some lists of indices.
+/// The last step, "first touch", is a part of "refit" again: it fills memory for all boxes that is new
+/// to the process.
 std::vector<Step> lbvh_steps(const std::vector<ref::Aabb>& boxes);
 
 } // namespace bench

@@ -11,8 +11,8 @@
 
 namespace bench {
 
-/// About `triangles` triangles of a sphere with bumps, in random order: no builder profits from the
-/// file's.
+/// A sphere with bumps, of about `triangles` triangles in random order, so that no builder profits
+/// from the order in the file.
 inline scenes::Scene bumpy_sphere(const std::string& name, double triangles)
 {
     constexpr double pi = 3.14159265358979323846;

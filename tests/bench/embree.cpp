@@ -22,7 +22,7 @@ public:
                 for (int axis = 0; axis < 3; ++axis)
                     vertices_.push_back(static_cast<float>(vertex[axis]));
             }
-        vertices_.push_back(0); // Embree reads 16 bytes from the last vertex on
+        vertices_.push_back(0); // Embree reads 16 bytes at the last vertex
         triangles_ = scene.triangles.size();
     }
     Embree(const Embree&) = delete;

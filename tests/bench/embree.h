@@ -1,7 +1,7 @@
 #pragma once
 
-// Embree as a yardstick, if it is there: its Morton builder (low quality) or its binned SAH (medium),
-// single precision.
+// Embree for comparison, if it is installed: its Morton builder (low quality) or its binned SAH
+// (medium), in single precision.
 
 #include "ref/trees/ray.h"
 

@@ -1,11 +1,12 @@
-// How long the fast path's trees take to build and to trace on the host, in single precision, beside
-// Embree.
+// Times of building and tracing the trees of the fast path on the host, in single precision, compared
+// with Embree.
 //
 //   bench_fast [--benchmark_...]
 //
-// Builds are from boxes in memory that is there already; "hploc" is morton63 and what comes on top. With
-// more than one thread the time that passes counts, else the CPU time. SAH costs: C_trav = C_isect = 1.
-// Of rays also: nodes and leaves (groups of a wide tree) per ray, and nodes if no hit stopped it.
+// Builds start from boxes that are already in memory; "hploc" is morton63 and the further work. With
+// more than one thread the elapsed time is measured, otherwise the CPU time. SAH costs: C_trav =
+// C_isect = 1. For rays also: nodes and leaves (groups of a wide tree) per ray, and nodes if no hit
+// stopped the traversal.
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/hploc.h"
@@ -40,7 +41,8 @@ void build(benchmark::State& state, const scenes::Scene& scene, unsigned threads
         fast::sah_cost(cluster ? clustered.nodes() : std::as_const(tree).nodes());
 }
 
-/// Rays from outside to points of the bounding box, and in random directions from what they hit.
+/// Rays from outside to points of the bounding box, and in random directions from the hits of these
+/// rays.
 struct Rays {
     std::vector<fast::Ray> camera;
     std::vector<fast::Ray> diffuse;
@@ -104,14 +106,14 @@ Rays make_rays(const Traceable& scene)
         if (glm::dot(normal, ray.direction) > 0) normal = -normal;
         Vec3 in_ball = in_cube();
         while (glm::dot(in_ball, in_ball) > 1) in_ball = in_cube();
-        // The normal and a point of the unit sphere: cosine-distributed.
+        // The normal plus a point of the unit sphere: cosine-distributed.
         rays.diffuse.push_back({ray.origin + hit.t * ray.direction + 1e-4f * normal, infinity,
                                 normal + glm::normalize(in_ball)});
     }
     return rays;
 }
 
-/// Leaves of a narrow tree: what a ray hits there.
+/// The hits of a ray in a leaf of a narrow tree.
 template <class Found>
 void intersect(const fast::TreeView& tree, std::uint32_t leaf, const fast::Ray& ray,
                const fast::ShearedRay& sheared, const Found& found)
@@ -138,7 +140,8 @@ const fast::WideTreeView& nodes_of(const fast::Surfaces<false>& tree)
     return tree.tree;
 }
 
-/// Nodes and leaves (or groups) that a ray visits on average; and nodes, if no hit stops it.
+/// Nodes and leaves (or groups) that a ray visits on average, and the nodes if no hit stops the
+/// traversal.
 template <class View>
 void count_visits(benchmark::State& state, const View& tree, const std::vector<fast::Ray>& rays)
 {

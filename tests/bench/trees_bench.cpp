@@ -1,10 +1,10 @@
-// How long trees take to build and to trace: generated meshes, and any scene files named as arguments.
+// Times of building and tracing trees: generated meshes, and any scene files named as arguments.
 //
 //   bench_trees [--benchmark_...] [SCENE.dae ...]
 //   bench_trees --benchmark_format=json > trees.json
 //
 // One thread; times are CPU times. Counters: primitives, SAH cost, depth, boxes entered and primitives
-// tested per ray. Where Embree is installed its fast builder stands beside ours as a yardstick of the
+// tested per ray. If Embree is installed, its fast builder is measured too, as a reference for the
 // machine.
 
 #include "cli/builders.h"
@@ -29,8 +29,8 @@ namespace {
 using ref::Builder;
 using ref::Vec3;
 
-/// Rays from one point outside to points of the bounding box, and cosine-distributed ones from what they
-/// hit.
+/// Rays from one point outside to points of the bounding box, and cosine-distributed rays from their
+/// hits.
 struct Rays {
     std::vector<ref::Ray> camera;
     std::vector<ref::Ray> diffuse;
@@ -119,7 +119,7 @@ void register_scene(const std::shared_ptr<const scenes::Scene>& scene)
 
 int main(int argc, char** argv)
 {
-    benchmark::Initialize(&argc, argv); // takes away the options that are its own
+    benchmark::Initialize(&argc, argv); // removes its own options
     try {
         if (argc == 1)
             for (const auto& [name, triangles] :

@@ -1,5 +1,5 @@
-// Any bytes at all: a scene that keeps its promises, or a SceneError of one line. Everything else, be it
-// another exception, a crash or a report of a sanitizer, is a bug.
+// Any bytes must give a valid scene or a SceneError of one line. Everything else, such as another
+// exception, a crash or a report of a sanitizer, is a bug.
 
 #include "scenes/bounds.h"
 #include "scenes/read_scene.h"

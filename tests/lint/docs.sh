@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# docs.sh ROOT: what the documents refer to is there: files, pictures, and names within files, written as
+# docs.sh ROOT: everything that the documents refer to exists: files, pictures, and names within files, written as
 # `file`: `name`.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/files.sh"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# headers.sh ROOT COMPILER: every header compiles by itself. Where it has a source file, that file shows it
-# by including the header first; only headers without one are compiled here.
+# headers.sh ROOT COMPILER: every header compiles by itself. If it has a source file, that file proves this
+# by including the header first; only headers without a source file are compiled here.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/files.sh"
 cd "$1"

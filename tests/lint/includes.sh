@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # includes.sh ROOT: our folders include one another in one direction only. The two wings, ref/ and cuda/,
-# are independent implementations: neither may see the other.
+# are independent implementations: neither may include the other.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/files.sh"
 cd "$1"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# paths.sh ROOT: no file names a place that exists on one machine only, such as somebody's home.
+# paths.sh ROOT: no file names a path that exists on one machine only, such as a home folder.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/files.sh"
 cd "$1"

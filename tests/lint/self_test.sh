@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# self_test.sh: the checks beside this file fail on what they are there to find, and pass what is sound.
+# self_test.sh: the checks beside this file fail on the faults that they must find, and pass correct files.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(mktemp -d)
@@ -47,7 +47,7 @@ if command -v clang-format >/dev/null; then
     expect fail format.sh golden/a.h 'int   f( ) ;'
 fi
 if command -v nvcc >/dev/null; then
-    # Its own compiler, in place of the c++ that expect passes.
+    # Its own compiler instead of the c++ that expect passes.
     printf '#pragma once\n__device__ inline int f() { return threadIdx.x; }\n' >"$root/cuda/a.cuh"
     bash "$here/device_headers.sh" "$root" nvcc >/dev/null 2>&1 || { echo 'device_headers.sh should pass'; failures=$((failures + 1)); }
     printf '#pragma once\n__device__ std::string f();\n' >"$root/cuda/a.cuh"

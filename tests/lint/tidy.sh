@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tidy.sh ROOT BUILD: clang-tidy finds nothing in the sources of the libraries and the program, nor in the
+# tidy.sh ROOT BUILD: clang-tidy finds no fault in the sources of the libraries and the program, and in the
 # headers that they include. Tests are left out: gtest and RapidCheck in every file would take minutes.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/files.sh"

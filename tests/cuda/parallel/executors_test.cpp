@@ -1,4 +1,4 @@
-// What every executor promises, and the adversary's own promises.
+// The guarantees of every executor, and those of the interleaved executor itself.
 
 #include "cuda/parallel/threaded_executor.h"
 #include "tests/cuda/parallel/interleaved_executor.h"
@@ -15,8 +15,7 @@ namespace {
 using cuda_test::EveryChoice;
 using cuda_test::InterleavedExecutor;
 
-/// Counts its calls per index, without an atomic operation: that there is one call per index must be
-/// enough.
+/// Counts its calls per index without an atomic operation: one call per index must be enough.
 struct CountCalls {
     std::span<std::uint32_t> calls;
     void operator()(std::uint32_t index) const { ++calls[index]; }
@@ -52,14 +51,14 @@ TEST(Executors, CallTheKernelOnceForEveryIndex)
     expect_one_call_per_index(interleaved);
 }
 
-/// Each index reads what another index wrote in the launch before.
+/// Each index reads a value that another index wrote in the launch before.
 struct Rotate {
     std::span<const std::uint32_t> from;
     std::span<std::uint32_t> to;
     void operator()(std::uint32_t index) const { to[index] = from[(index + 1) % from.size()]; }
 };
 
-TEST(Executors, ShowEachLaunchWhatTheOneBeforeWrote) // ThreadSanitizer sees it if that were luck
+TEST(Executors, ShowEachLaunchWhatTheOneBeforeWrote) // if only by chance, ThreadSanitizer reports it
 {
     fast::ThreadedExecutor executor(4, 1);
     std::vector<std::uint32_t> a(64);
@@ -98,9 +97,9 @@ TEST(ThreadedExecutor, SharesOutLargeLaunchesAndSmallOnes)
     }
 }
 
-/// Adds one to a counter, in `steps` atomic steps of which only the last counts.
+/// Adds one to a counter, in `steps` atomic steps of which only the last one matters.
 struct Count {
-    std::span<std::uint32_t> trace; // index of every step, in the order taken
+    std::span<std::uint32_t> trace; // index of every step, in the order of execution
     std::uint32_t steps;
     std::uint32_t& taken;
     void operator()(std::uint32_t index) const
@@ -114,9 +113,9 @@ struct Count {
 
 TEST(InterleavedExecutor, ReachesEveryInterleavingOnce)
 {
-    // Two threads with a step to begin and two steps that they can be interrupted before: three pieces
-    // each, which makes 6! / (3! 3!) = 20 orders. The first piece takes no step, so fewer differ to us:
-    // 4! / (2! 2!) = 6.
+    // Two threads, each with a first piece and two steps before which it can be interrupted. That is
+    // three pieces each, which gives 6! / (3! 3!) = 20 orders. The first piece takes no step, so only
+    // the orders of the others can be distinguished: 4! / (2! 2!) = 6.
     EveryChoice choices;
     InterleavedExecutor executor(2, std::ref(choices));
     std::set<std::vector<std::uint32_t>> traces;

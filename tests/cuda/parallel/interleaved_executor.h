@@ -1,8 +1,8 @@
 #pragma once
 
-// The adversary among the executors: many threads, of which only the one that holds the baton moves. It
-// must let go of it before each of its atomic operations, and who gets it is decided from outside: drawn
-// from a seed, or by trying everything. So every run can be repeated exactly.
+// An executor with many threads of which only one runs at a time. Before each of its atomic
+// operations, a thread stops, and a function chooses the thread that goes on: at random from a seed,
+// or by trying every choice. So every run can be repeated exactly.
 
 #include "cuda/parallel/atomic.h"
 #include "cuda/parallel/executor.h"
@@ -18,11 +18,11 @@ namespace cuda_test {
 
 class InterleavedExecutor {
 public:
-    /// Returns which of `ready` >= 2 threads goes on: a number below `ready`.
+    /// Chooses the thread that goes on, out of `ready` >= 2 threads: returns a number below `ready`.
     using Choose = std::function<std::uint32_t(std::uint32_t ready)>;
 
-    /// `threads` indices at most are under way at the same time; whoever has finished one takes the
-    /// next.
+    /// At most `threads` indices are in progress at the same time; a thread that has finished one
+    /// takes the next.
     InterleavedExecutor(std::uint32_t threads, Choose choose) : choose_(std::move(choose))
     {
         for (std::uint32_t thread = 0; thread < threads; ++thread)
@@ -88,10 +88,10 @@ private:
         return ready == 1 ? ready_[0] : ready_[choose_(ready)];
     }
 
-    // Touched by the holder of the baton alone.
+    // Accessed only by the thread whose turn it is.
     Choose choose_;
     std::function<void(std::uint32_t)> kernel_;
-    std::uint32_t next_ = 0; // the first index that nobody has taken
+    std::uint32_t next_ = 0; // the first index that no thread has taken
     std::uint32_t count_ = 0;
     std::vector<std::uint32_t> ready_; // threads that have not finished
 
@@ -110,7 +110,7 @@ public:
         if (at_ == trail_.size()) trail_.push_back({0, ready});
         return trail_[at_++].chosen;
     }
-    /// Whether there is a sequence that has not been tried.
+    /// Whether there is a sequence that has not been tried yet.
     bool next_round()
     {
         at_ = 0;

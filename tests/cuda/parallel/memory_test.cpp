@@ -1,4 +1,4 @@
-// Buffers, and what happens when there is no more room for one.
+// Buffers, and their behaviour when there is not enough memory.
 
 #include "cuda/parallel/buffer.h"
 #include "cuda/trees/lbvh.h"
@@ -14,14 +14,14 @@ namespace {
 
 using fast::Buffer;
 
-/// Has so many bytes, and knows what it gave out.
+/// A memory of a fixed number of bytes that tracks its allocated blocks.
 class SmallMemory : public fast::Memory {
 public:
     explicit SmallMemory(std::size_t bytes) : free(bytes) {}
     void release(void* block) noexcept override
     {
         const auto entry = held_.find(block);
-        if (entry == held_.end()) std::abort(); // given back twice, or never given out
+        if (entry == held_.end()) std::abort(); // released twice, or never allocated
         free += entry->second;
         held_.erase(entry);
         host_.release(block);
@@ -102,7 +102,7 @@ TEST(OutOfMemory, WhereverItHappensATreeGivesEverythingBackAndTheNextOneIsBuilt)
         const fast::Lbvh<std::uint32_t> tree(memory, executor, 100);
         needed = (1 << 20) - memory.free;
     }
-    // Every amount that is a little too small for one of the buffers.
+    // Every number of bytes that is a little too small for one of the buffers.
     int failures = 0;
     for (std::size_t bytes = 0; bytes < needed; bytes += 100) {
         memory.free = bytes;
@@ -115,7 +115,7 @@ TEST(OutOfMemory, WhereverItHappensATreeGivesEverythingBackAndTheNextOneIsBuilt)
 
     memory.free = needed;
     fast::Lbvh<std::uint32_t> tree(memory, executor, 100);
-    EXPECT_EQ(memory.free, 0u); // nothing is left for a build to allocate
+    EXPECT_EQ(memory.free, 0u); // no memory is left for a build to allocate
     tree.build(executor, boxes);
     EXPECT_EQ(tree.first_rejected(), fast::no_primitive);
 }

@@ -11,16 +11,15 @@
 
 namespace cuda_test {
 
-/// Whether tests that need a GPU can run; found out once.
+/// The GPU, if any; searched for only once.
 inline const fast::Device& found_device()
 {
     static const fast::Device device = fast::find_device();
     return device;
 }
 
-/// Whether the present test shall go on. Where there is no usable GPU it is skipped, with the reason. On
-/// a machine that is meant to have one, PLUMBLINE_REQUIRE_GPU=1 makes it fail instead: a skip could go
-/// unnoticed.
+/// Skips the current test, with the reason, if there is no usable GPU. On a machine that should have
+/// one, PLUMBLINE_REQUIRE_GPU=1 turns the skip into a failure, since a skip could go unnoticed.
 inline void skip_without_device()
 {
     if (found_device().usable) return;

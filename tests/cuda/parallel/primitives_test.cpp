@@ -1,4 +1,5 @@
-// Reduction and sort on the executors of the host. (A device has CUB for both: lbvh_test.cpp compares.)
+// Reduction and sort on the executors of the host. (A device uses CUB for both: lbvh_test.cpp
+// compares.)
 
 #include "cuda/parallel/radix_sort.h"
 #include "cuda/parallel/reduce.h"

@@ -1,5 +1,5 @@
-// Whether ThreadSanitizer sees what it is there to see: without a report on a refit that is known to be
-// wrong, its silence about the right one would say nothing.
+// Tests that ThreadSanitizer reports a refit that is known to be wrong. Otherwise, the absence of a
+// report on the right one would prove nothing.
 
 #include <gtest/gtest.h>
 

@@ -24,7 +24,7 @@ Verdict verdict_on(const ref::World& world, const fast::Ray& ray, std::uint32_t 
                    slack);
 }
 
-/// What `ray` found, or nothing, against what the reference finds by the same ray.
+/// Compares the primitive that `ray` found, or no hit, with the hits of the reference on the same ray.
 void require_closest(const ref::World& world, const fast::Ray& ray, double slack,
                      std::optional<std::uint32_t> found)
 {
@@ -32,12 +32,14 @@ void require_closest(const ref::World& world, const fast::Ray& ray, double slack
     if (closest && found != closest->primitive) {
         const Verdict missed = verdict_on(world, ray, closest->primitive, slack);
         const bool is_before = !found || missed.highest < verdict_on(world, ray, *found, slack).lowest;
-        require(!(missed.certain && is_before), "a ray misses what it hits");
+        require(!(missed.certain && is_before), "a ray misses a primitive that it must hit");
     }
-    if (found) require(verdict_on(world, ray, *found, slack).possible, "a ray hits what it misses");
+    if (found)
+        require(verdict_on(world, ray, *found, slack).possible,
+                "a ray hits a primitive that it must miss");
 }
 
-/// That the point found is where `ray` meets its primitive.
+/// Requires that the point found is where `ray` meets its primitive.
 void require_position(const ref::World& world, const fast::Ray& ray, double slack,
                       const fast::SurfacePoint& point)
 {
@@ -45,8 +47,8 @@ void require_position(const ref::World& world, const fast::Ray& ray, double slac
     const Vec3 d(ray.direction);
     const Vec3 from = Vec3(point.position) - Vec3(ray.origin);
     const double t = glm::dot(from, d) / glm::dot(d, d);
-    // The weights of a triangle's vertices, and t and the ray's own sum where it is a sphere; then what
-    // any point of the surface may err by.
+    // The error of the vertex weights of a triangle, and, for a sphere, that of t and of the sum on
+    // the ray; then the error of any point of the surface.
     double size = glm::length(from) + glm::length(Vec3(ray.origin));
     double across = slack;
     if (point.primitive < world.scene.triangles.size()) {
@@ -57,7 +59,8 @@ void require_position(const ref::World& world, const fast::Ray& ray, double slac
     } else {
         const auto& sphere = world.scene.spheres[point.primitive - world.scene.triangles.size()];
         size += glm::length(sphere.center) + sphere.radius;
-        // Reprojection moves it by as much as the hit was off the sphere (sphere.h: 22 u M).
+        // The projection onto the sphere moves it by the hit's distance from the sphere (sphere.h: 22
+        // u M).
         across += 44 * roundoff * (glm::length(Vec3(ray.origin) - sphere.center) + sphere.radius);
     }
     across += 8 * roundoff * size;
@@ -71,32 +74,32 @@ double angle_between(const Vec3& a, const Vec3& b)
     return glm::length(glm::normalize(a) - glm::normalize(b));
 }
 
-/// A vertex as the floats have it; alpha as the reference does.
+/// The fast path's vertex; alpha is the reference's.
 ref::Vertex vertex_of(const Setting& setting, const fast::WalkVertex& vertex, const NextStep& step)
 {
     for (int i = 0; i < 3; ++i)
         require(std::abs(vertex.alpha[i] - step.alpha[i]) <= step.alpha_error * step.alpha[i] + 0x1p-100,
-                "the weight of a walk");
+                "a walk has a wrong weight");
     return surface_vertex(setting.world, surface_of(setting.world, vertex.point), step.alpha);
 }
 
-/// Of the ways that a walk may go that which it went in direction `d`.
+/// The one of the possible steps that the walk took, given its direction `d`.
 NextStep step_taken(const std::vector<NextStep>& steps, const Vec3& d)
 {
-    require(!steps.empty(), "a walk goes on that has to end");
+    require(!steps.empty(), "a walk goes on where it must end");
     for (const NextStep& step : steps)
         if (glm::length(d - step.direction) <= step.error) return step;
-    throw Disagreement("the direction of a walk");
+    throw Disagreement("a walk has a wrong direction");
 }
 
-/// A walk may end without a word in the very plane of a surface.
+/// A walk may end without a record if it is in the plane of a surface.
 void require_in_plane(const ref::World& world, const NextStep& step)
 {
     const ref::Ray ray{step.origin, step.direction};
     const auto hit = ref::intersect(world.geometry, ray);
-    require(hit.has_value(), "a walk ends that goes on to infinity");
+    require(hit.has_value(), "a walk ends where it must go on to infinity");
     const double cosine = glm::dot(surface_point(world.geometry, ray, *hit).normal, step.direction);
-    require(std::abs(cosine) <= cosine_error + step.error, "a walk ends that goes on");
+    require(std::abs(cosine) <= cosine_error + step.error, "a walk ends where it must go on");
     throw Undecided("a walk in the plane of a surface");
 }
 
@@ -110,7 +113,7 @@ void follow(const Setting& setting, ref::Transport carried, const WatchedSample:
     for (std::size_t n = 1;; ++n) {
         const bool met = n <= recorded.vertices.size();
         const bool over = n >= most_vertices || steps.empty() || steps[0].alpha == ref::Rgb(0);
-        require(!over || (!met && !recorded.missed), "a walk goes on that has to end");
+        require(!over || (!met && !recorded.missed), "a walk goes on where it must end");
         if (over) return;
         if (ref::max_component(steps[0].alpha) < 0x1p-100)
             throw Undecided("too little light for floats");
@@ -130,7 +133,7 @@ void follow(const Setting& setting, ref::Transport carried, const WatchedSample:
             return;
         }
         const fast::WalkVertex& vertex = recorded.vertices[n - 1];
-        require(vertex.n == static_cast<int>(n), "the number of a vertex");
+        require(vertex.n == static_cast<int>(n), "a vertex has a wrong number");
         require_closest(world, ray, step.slack, vertex.point.primitive);
         require_on_surface(world, vertex.point);
         require_position(world, ray, step.slack, vertex.point);

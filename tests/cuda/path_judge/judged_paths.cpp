@@ -37,7 +37,8 @@ std::string Tally::report() const
 
 namespace {
 
-/// A product that becomes subnormal loses 2^-150; the factors that follow make less than 2^50 of it.
+/// A product that becomes subnormal loses 2^-150; the factors that follow magnify it by less than
+/// 2^50.
 constexpr double underflow = 0x1p-100;
 
 fast::PathOptions float_options(const ref::PathOptions& options)
@@ -50,18 +51,18 @@ fast::PathOptions float_options(const ref::PathOptions& options)
 [[noreturn]] void differ(const std::string& what, double floats, double reference, double bound)
 {
     std::ostringstream text;
-    text << what << ": " << floats << ", the reference says " << reference << ", bound " << bound;
+    text << what << ": " << floats << ", reference " << reference << ", bound " << bound;
     throw Disagreement(text.str());
 }
 
-/// The pixel is that of a point within the error of the film point.
+/// The pixel must be that of a point within the error of the film point.
 void require_pixel(std::uint32_t pixel, int width, const Judged& judged)
 {
     const double x = pixel % static_cast<std::uint32_t>(width);
     const double y = pixel / static_cast<std::uint32_t>(width);
     const double e = judged.film_error;
     require(judged.x >= x - e && judged.x <= x + 1 + e && judged.y >= y - e && judged.y <= y + 1 + e,
-            "the pixel of a light image");
+            "a light image has a wrong pixel");
 }
 
 void compare(const WatchedSample::Found& found, const Judged& judged, Tally& tally)
@@ -77,7 +78,7 @@ void compare(const WatchedSample::Found& found, const Judged& judged, Tally& tal
     if (std::isinf(judged.weight_error)) ++tally.weights_left_open;
 }
 
-/// What the floats found of one strategy, or nothing, against what they must.
+/// Compares the fast path's contribution by one strategy, or none, with the expected one.
 template <class Strategy>
 void judge_strategy_of(const Setting& setting, const WatchedSample::Found* found, std::size_t t,
                        const Strategy& strategy, Tally& tally)
@@ -89,11 +90,11 @@ void judge_strategy_of(const Setting& setting, const WatchedSample::Found* found
                     "a contribution is missing");
             return;
         }
-        require(judged.has_value(), "a contribution that cannot be");
+        require(judged.has_value(), "an impossible contribution");
         if (t == 1)
             require_pixel(found->pixel, setting.world.camera.width(), *judged);
         else
-            require(found->pixel == setting.id.pixel, "the pixel of a sample");
+            require(found->pixel == setting.id.pixel, "a sample has a wrong pixel");
         compare(*found, *judged, tally);
     } catch (const Undecided& why) {
         ++tally.strategies_left[why.what()];
@@ -144,7 +145,7 @@ void judge_sample(const Setting& setting, const WatchedScene& scene, fast::Integ
         }
         if (is_found) left.erase(entry);
     };
-    // Of max_edges at most: s + t - 1 edges.
+    // Paths of at most max_edges edges: a path has s + t - 1.
     const auto longest = static_cast<std::size_t>(setting.options.max_edges);
     for (std::size_t t = 2; t <= z.vertices.size(); ++t) {
         check(0, t, [&](bool) { return judge.emission_hit(t); });

@@ -1,6 +1,7 @@
 #pragma once
 
-// What a sample must contribute, given how its walks went: the reference joins the floats' own vertices.
+// The expected contributions of a sample, given its walks: the reference joins the fast path's
+// vertices.
 
 #include "ref/transport/mis_weight.h"
 #include "tests/cuda/path_judge/followed_walk.h"
@@ -12,36 +13,36 @@
 
 namespace cuda_test {
 
-/// What was compared, and what could not be.
+/// Counts of the comparisons, and of those that were impossible.
 struct Tally {
     long samples = 0;
     long contributions = 0;
-    long grazing = 0;                            // in the plane of a surface: held to be next to nothing
-    long weights_left_open = 0;                  // known to less than a tenth
-    std::map<std::string, long> samples_left;    // of which a walk was not followed to its end, and why
-    std::map<std::string, long> strategies_left; // (s, t) of a sample that were not compared, and why
+    long grazing = 0;                            // in the plane of a surface: only bounded
+    long weights_left_open = 0;                  // known only to a tenth or worse
+    std::map<std::string, long> samples_left;    // a walk was not followed to its end; with the reason
+    std::map<std::string, long> strategies_left; // (s, t) not compared; with the reason
 
     void add(const Tally& other);
     [[nodiscard]] long left() const; // of samples and strategies
     [[nodiscard]] std::string report() const;
 };
 
-/// Traces one sample in floats and judges everything about it. Throws Disagreement, with (s, t).
+/// Traces one sample on the fast path and judges all of its results. Throws Disagreement, with (s, t).
 void judge_sample(const Setting& setting, const WatchedScene& scene, fast::Integrator integrator,
                   Tally& tally);
 
-/// One strategy of a sample.
+/// The expected result of one strategy of a sample.
 struct Judged {
     ref::Rgb value;
     double value_error; // relative
     double weight;
-    double weight_error; // absolute; infinite where it is not known
-    double x = 0, y = 0; // t = 1: film point, and by how much it may differ
+    double weight_error; // absolute; infinite if unknown
+    double x = 0, y = 0; // t = 1: film point, with film_error
     double film_error = 0;
 };
 
-/// Both walks, and what judges them. `found`: whether the floats have such a contribution, for lines of
-/// sight that are too close to tell. Each throws Undecided or Disagreement.
+/// Judges the strategies that join two walks. `found`: whether the fast path has such a contribution,
+/// for lines of sight that are too close to decide. Each function throws Undecided or Disagreement.
 class PathJudge {
 public:
     PathJudge(const Setting& setting, fast::Integrator integrator, const FollowedWalk& y,
@@ -58,19 +59,19 @@ private:
     struct JoinedPath {
         ref::Path vertices;
         std::vector<double> turned; // [i]: of the edge from x_i to x_{i+1}
-        double normal_error = 0;    // at x_0, besides
+        double normal_error = 0;    // at x_0, in addition
     };
     [[nodiscard]] JoinedPath join(std::size_t s, std::size_t t) const;
     [[nodiscard]] double quotient_error(const JoinedPath& x) const;
     void weigh(const JoinedPath& x, std::size_t s, Judged& judged) const;
     [[nodiscard]] double path_tracing_weight(const JoinedPath& x, std::size_t s) const;
-    /// Relative, of the cosine with `w` at the end of a connection, where `turned` is the angle by which
-    /// w may be off. Throws Grazing if its sign is not certain, with `at_most` the value for a cosine
-    /// of 1.
+    /// The relative error of the cosine with `w` at the end of a connection, where w may be off by the
+    /// angle `turned`. Throws Grazing if the sign of the cosine is not certain; `at_most` is the value
+    /// for a cosine of 1.
     [[nodiscard]] double end_error(const FollowedWalk& walk, std::size_t i, const ref::Vec3& w,
                                    double turned, const ref::Rgb& at_most) const;
-    /// What a vertex scatters from a walk, its cosine excluded: where cosines are next to 0, which side
-    /// of the surface it is on must not matter.
+    /// The light that a vertex scatters from a walk, without the cosine. It must not depend on the
+    /// side of the surface, which is uncertain where cosines are close to 0.
     [[nodiscard]] ref::Rgb scattered_at_most(const ref::Vertex& vertex) const;
     [[nodiscard]] LineOfSight line_from(const ref::SurfacePoint& point, const ref::Vec3& w) const;
 

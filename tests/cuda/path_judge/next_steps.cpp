@@ -1,4 +1,4 @@
-// What the reference makes of a vertex of the floats: the bounce.
+// The bounce: the reference's next step from a vertex of the fast path.
 
 #include "tests/cuda/path_judge/followed_walk.h"
 #include "tests/cuda/path_judge/path_rounding.h"
@@ -9,7 +9,7 @@ namespace {
 
 using ref::Vec3;
 
-/// The error of the direction that `sample` goes to.
+/// The error of the direction of `sample`.
 double error_of(const scenes::Material& material, const Vec3& wo, const ref::BsdfSample& sample)
 {
     const auto* glass = std::get_if<scenes::Glass>(&material);
@@ -43,7 +43,7 @@ std::vector<NextStep> next_steps(const Setting& setting, ref::Transport carried,
                                      static_cast<std::uint32_t>(vertex.n));
     const ref::Frame frame(point.normal);
     const Vec3 wo = frame.to_local(Vec3(vertex.wo));
-    if (std::abs(wo.z) <= cosine_error) throw Undecided("which side a walk comes from");
+    if (std::abs(wo.z) <= cosine_error) throw Undecided("the side that a walk comes from");
     const double survival = ref::survival_probability(material, vertex.n, setting.options.roulette);
     if (survival < 1 && std::abs(u[3] - survival) <= roundoff) throw Undecided("roulette");
     if (u[3] >= survival) return {};
@@ -55,7 +55,7 @@ std::vector<NextStep> next_steps(const Setting& setting, ref::Transport carried,
         const Vec3 wi = glm::normalize(frame.to_world(sample.wi_local));
         const double clearance = vertex.point.clearance;
         const double side = glm::dot(wi, point.normal) < 0 ? -1 : 1;
-        // Value, eta, chance, quotient and product.
+        // Value, eta, survival, quotient and product.
         steps.push_back({point.position + side * clearance * point.normal,
                          4 * roundoff * (glm::length(point.position) + clearance), wi,
                          error_of(material, wo, sample), last.alpha * sample.value / survival,

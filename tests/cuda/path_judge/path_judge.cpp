@@ -1,5 +1,6 @@
-// The four families of strategies, on the floats' own vertices. A value is a product of factors: the
-// errors of two walks' weights, of cosines, of squared distances, and 16 roundings.
+// The four families of strategies on the fast path's vertices. A value is a product of factors. Its
+// error is the sum of the errors of the weights of both walks, of cosines and of squared distances,
+// and 16 roundings.
 
 #include "tests/cuda/path_judge/judged_paths.h"
 #include "tests/cuda/path_judge/path_rounding.h"
@@ -20,9 +21,9 @@ double PathJudge::end_error(const FollowedWalk& walk, std::size_t i, const Vec3&
     const double c = cosine(vertex, w);
     const double error = turned + cosine_error;
     if (c <= error) throw Grazing{at_most * (c + error)};
-    if (i > 0) { // on which side of the surface it is, the walk's own direction says
+    if (i > 0) { // the direction of the walk decides the side of the surface
         const double came = cosine(vertex, direction(vertex, walk.vertices[i - 1]));
-        if (came <= walk.turned[i] + cosine_error) throw Undecided("which side a walk comes from");
+        if (came <= walk.turned[i] + cosine_error) throw Undecided("the side that a walk comes from");
     }
     return error / c;
 }
@@ -69,8 +70,7 @@ std::optional<Judged> PathJudge::light_image(std::size_t s, bool found) const
     Judged judged{ref::Rgb(0), y_.alpha_error[s - 1] + in_product, 0, 0};
     judged.value_error += 3 * cosine_error / ahead;
 
-    // The film point, with the error of two cosines over that of a third, and of what they are scaled
-    // by.
+    // The film point. Its error is that of two cosines over that of a third, and that of the scaling.
     const scenes::Camera& source = world.scene.camera.value();
     const double width = world.camera.width();
     const double height = world.camera.height();

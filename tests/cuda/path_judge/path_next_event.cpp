@@ -1,6 +1,6 @@
-// The family of strategies that draws a point of an emitter for every eye vertex. The floats' point is
-// not shown: the reference draws one by the same numbers, and the two differ by what one drawing can
-// round.
+// The family of strategies that samples a point of an emitter for every eye vertex. The fast path's
+// point is not recorded: the reference samples one from the same numbers, and the two points may
+// differ by the rounding of one sampling step.
 
 #include "tests/cuda/path_judge/judged_paths.h"
 #include "tests/cuda/path_judge/path_rounding.h"
@@ -23,7 +23,7 @@ std::optional<Judged> PathJudge::next_event(std::size_t t, bool found) const
     if (world.emitters.choose(u[0]) == nullptr) return std::nullopt;
     const ref::Emitter& emitter = *world.emitters.choose(u[0]);
     const Vec3& p = last.point.position;
-    // How far the light's end is off, and the angle by which that turns the connection.
+    // The error of the light's position, and the angle by which it turns the connection.
     double turned = 0;
     double error = z_.alpha_error[t - 1] + in_product;
     double light_normal_error = 0;
@@ -51,7 +51,8 @@ std::optional<Judged> PathJudge::next_event(std::size_t t, bool found) const
         const double for_length = 24 * roundoff * distance;
         line = line_from(last.point, end.position - p);
         line.to = end.position + (clearance.low + for_length) * end.normal;
-        // A normal that is wrong turns what the end is moved by: of second order, as the length is.
+        // An error of the normal turns the offset of the end: this is of second order, as the length
+        // of the offset is.
         line.to_slack = 1.01 * (clearance.high - clearance.low + off) + 0.01 * for_length;
         line.end = end.primitive;
         break;

@@ -1,13 +1,14 @@
-// Weights of joined paths, and how well they are known.
+// Weights of joined paths, and bounds on their errors.
 //
-// The weight of strategy s is 1 / sum_j p_j / p_s. Each quotient is a product of densities, in which
+// The weight of strategy s is 1 / sum_j p_j / p_s. Each quotient is a product of densities. In these,
 // every cosine of the path, at a vertex along an edge, occurs at most twice: in the density of that
-// vertex, and in that of the edge's other end. A cosine c that is wrong by e is wrong by e / c
-// relatively. Distances, constants and products count 24 roundings per vertex. A delta lobe has
-// Fresnel's reflectance instead, once from either side; how much that may vary is found by varying its
-// cosines. Let E be the sum of all these relative errors: no quotient is known worse, nor their sum, all
-// terms being positive. With w = 1 / (1 + x), dw = w (1 - w) dx / x: the error of the weight is at most
-// w (1 - w) E, twice that for the power heuristic, and the running sums' own (running_sums_test.cpp).
+// vertex, and in that of the edge's other end. A cosine c with an error of e has a relative error of e
+// / c. Distances, constants and products count 24 roundings per vertex. For a delta lobe, Fresnel's
+// reflectance takes the place of a density, once from either side; its variation is found by varying
+// the cosines. Let E be the sum of all these relative errors. No quotient has a larger relative error,
+// nor has their sum, since all terms are positive. With w = 1 / (1 + x), dw = w (1 - w) dx / x: the
+// error of the weight is at most w (1 - w) E, twice that for the power heuristic, plus the error of
+// the running sums (running_sums_test.cpp).
 
 #include "tests/cuda/path_judge/judged_paths.h"
 #include "tests/cuda/path_judge/path_rounding.h"
@@ -21,10 +22,10 @@ namespace {
 using ref::Vec3;
 using ref::Vertex;
 
-/// Beyond this, first order says nothing.
+/// Beyond this error, the first order is not accurate enough.
 constexpr double worst_quotient = 0.1;
 
-/// Relative, of what a delta lobe counts from wo to wi, where either cosine may be wrong.
+/// The relative error of a delta lobe's factor from wo to wi, where either cosine may have an error.
 double lobe_error(const scenes::Material& material, Vec3 wo, double wo_error, Vec3 wi, double wi_error)
 {
     const double middle = ref::density_of_delta_lobe(material, wo, wi);
@@ -41,7 +42,7 @@ double lobe_error(const scenes::Material& material, Vec3 wo, double wo_error, Ve
     return worst / middle + 16 * roundoff;
 }
 
-/// The share of one of the two strategies of path tracing: densities per solid angle.
+/// The weight of one of the two strategies of path tracing: densities per solid angle.
 double balanced(double pdf, double pdf_other)
 {
     return pdf / (pdf + pdf_other);
@@ -102,7 +103,7 @@ double PathJudge::quotient_error(const JoinedPath& x) const
 
 double PathJudge::path_tracing_weight(const JoinedPath& x, std::size_t s) const
 {
-    // x_1 bounced to x_0, or was joined to it.
+    // x_1 bounced to x_0, or was joined to x_0.
     const ref::World& world = setting_.world;
     const Vertex& light = *x.vertices[0];
     const Vertex& last = *x.vertices[1];

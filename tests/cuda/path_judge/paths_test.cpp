@@ -1,6 +1,6 @@
-// Path by path: every sample of the fast path, step by step and strategy by strategy, is what the
-// reference makes of the same random numbers (followed_walk.h says how that is judged, path_rounding.h
-// and path_weights.cpp to within what).
+// Path by path: every sample of the fast path must agree, step by step and strategy by strategy, with
+// the reference for the same random numbers (method: followed_walk.h; tolerances: path_rounding.h and
+// path_weights.cpp).
 
 #include "tests/cuda/path_judge/judged_paths.h"
 #include "tests/cuda/transport/float_scene.h"
@@ -42,14 +42,14 @@ std::string name_of(fast::Integrator integrator)
     return integrator == path ? "path" : integrator == bdpt ? "bdpt" : "light";
 }
 
-/// Both wings' view of a scene.
+/// A scene in both wings.
 class BothWings {
 public:
     BothWings(const scenes::Scene& scene, bool roulette)
         : scene_(cuda_test::float_scene(scene)), world_(scene_, width, height),
           floats_(scene_, width, height, roulette)
     {}
-    /// Throws Disagreement, which names the sample.
+    /// Throws Disagreement that names the sample.
     void judge(const Job& job, std::uint32_t pixel, std::uint32_t sample, Tally& tally) const
     {
         try {
@@ -70,7 +70,7 @@ private:
     cuda_test::WatchedScene floats_;
 };
 
-/// What is left of a scene when some surfaces and lights are gone: it shrinks to those that matter.
+/// The scene without some of its surfaces and lights, so that a failure shrinks to those that matter.
 scenes::Scene any_part_of(scenes::Scene scene)
 {
     const auto thin = [](auto& things) {
@@ -96,9 +96,10 @@ Job any_job()
     return job;
 }
 
-/// Few are so close to a threshold that they are not judged: else the judge would be blind. At most one
-/// in a thousand samples is left, or has a strategy that is; and of so many contributions at most the
-/// weight is known too badly to compare, which long walks over small spheres have more of.
+/// Only few samples may be so close to a threshold that they are not judged; otherwise the test would
+/// detect nothing. At most one in a thousand samples may be left out, or have a strategy that is left
+/// out. The weight may be too inaccurate to compare for at most the fraction `without_weight` of the
+/// contributions; long walks over small spheres have more of these.
 void expect_few_left(const Tally& tally, double without_weight)
 {
     std::cout << tally.report();
@@ -112,7 +113,7 @@ TEST(PathsInFloat, AreThoseOfTheReferenceInRandomScenes)
 {
     Tally tally;
     const std::uint32_t samples = at_length() ? 20'000 : 600;
-    const bool holds = rc::check("every sample is what the reference makes of it", [&] {
+    const bool holds = rc::check("every sample agrees with the reference", [&] {
         const scenes::Scene scene = any_part_of(transport_test::any_scene());
         const Job job = any_job();
         const BothWings wings(scene, job.options.roulette);
@@ -141,7 +142,7 @@ TEST(PathsInFloat, SeeASkyWhereThereIsNothingElse)
     const BothWings wings(scene, true);
     Tally tally;
     for (const auto integrator : {bdpt, path, light}) wings.judge({integrator, {1, 4}}, 0, 0, tally);
-    EXPECT_EQ(tally.contributions, 2); // no light walk begins there
+    EXPECT_EQ(tally.contributions, 2); // no light walk starts there
     EXPECT_EQ(tally.left(), 0);
 }
 
@@ -169,9 +170,9 @@ TEST_P(PathsInFloatOf, AreThoseOfTheReference)
                     ++sample;
                 }
     }
-    // Where lights lie in the plane of what they shine along, every path to that plane is within
-    // rounding of being blocked. No such path may disagree, but many are left to touching_test.cpp,
-    // which judges means.
+    // Where lights lie in the plane of a surface that they shine along, every path to that surface may
+    // be blocked by rounding. No such path may disagree, but many are left out here; touching_test.cpp
+    // compares their means.
     if (scene.name == "flush_lights")
         std::cout << tally.report();
     else

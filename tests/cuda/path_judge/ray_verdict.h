@@ -1,7 +1,7 @@
 #pragma once
 
-// What a ray in single precision may and must answer about one primitive, from double precision and the
-// bounds that intersect.h and sphere.h derive.
+// The possible and the certain results of a ray in single precision against one primitive, from double
+// precision and the bounds derived in intersect.h and sphere.h.
 
 #include "cuda/trees/sphere.h"
 #include "ref/trees/intersect.h"
@@ -13,12 +13,12 @@
 
 namespace cuda_test {
 
-/// If it is hit at all, then at lowest <= t <= highest; if `certain`, it is.
+/// If there is a hit, then at lowest <= t <= highest; if `certain`, there must be one.
 struct Verdict {
     bool possible;
     bool certain;
     double lowest, highest;
-    double margin = 0; // of a triangle: by how much its weights may differ
+    double margin = 0; // of a triangle: the error of its weights
 };
 
 inline ref::Ray exactly(const fast::Ray& ray)
@@ -32,7 +32,7 @@ inline std::array<ref::Vec3, 3> exactly(const fast::Triangle& triangle)
     return {ref::Vec3(v[0]), ref::Vec3(v[1]), ref::Vec3(v[2])};
 }
 
-/// Where 0 and t_max stand to [lowest, highest] settles the rest.
+/// The position of 0 and t_max relative to [lowest, highest] decides the rest.
 inline Verdict settled(const fast::Ray& ray, bool certain, double lowest, double highest,
                        double margin = 0)
 {
@@ -42,14 +42,14 @@ inline Verdict settled(const fast::Ray& ray, bool certain, double lowest, double
 
 constexpr Verdict impossible{false, false, 0, 0, 0};
 
-// The float test sees vertices that are perturbed by at most 7 u D across the ray and 3 u D along it
-// (see slabs.h), D the largest coordinate of v - o, and is exact for those. The reference does the same
-// with a roundoff that does not count here. So they agree where the ray passes the edges at a greater
-// distance, in barycentric terms 7 u D / height; the factor 4 covers that both ends of an edge move, and
-// the third vertex. With `slack`, the ray that was really traced began within so short a distance of
-// this one's origin and passed within that distance of it: across it that is 3 slack after the shear,
-// whose factors are at most 1, and along it 2 slack over the length of the direction, the largest
-// component of which is 0.57 of it.
+// The test in float uses vertices that are perturbed by at most 7 u D across the ray and 3 u D along
+// it (see slabs.h), where D is the largest coordinate of v - o, and is exact for those. The reference
+// does the same with a roundoff that is negligible here. So both agree where the ray passes the edges
+// at a greater distance, which in barycentric coordinates is 7 u D / height; the factor 4 accounts for
+// the movement of both ends of an edge, and of the third vertex. With `slack`, the ray that was really
+// traced began within that distance of this ray's origin, and passed within that distance of this ray.
+// Across the ray this is 3 slack after the shear, whose factors are at most 1. Along it, it is 2 slack
+// over the length of the direction, whose largest component is 0.57 of the length.
 inline Verdict verdict(const fast::Ray& ray, const fast::Triangle& triangle, double slack = 0)
 {
     constexpr double u = 0x1p-24;
@@ -74,8 +74,8 @@ inline Verdict verdict(const fast::Ray& ray, const fast::Triangle& triangle, dou
     const double margin = 4 * (7 * u * D + 3 * slack) * edge / std::abs(det);
     if (!(margin <= 0.1)) return settled(ray, false, -infinity, infinity);
     if (inside < -margin) return impossible;
-    // A change of the weights by `margin` changes t by at most the spread of the vertices' own t,
-    // which are themselves off by 3 u; and t is rounded.
+    // An error of `margin` in the weights changes t by at most the spread of the vertices' own t,
+    // which have an error of 3 u; and t is rounded.
     const double t = (U * A.z + V * B.z + W * C.z) / det;
     const double spread = std::max({A.z, B.z, C.z}) - std::min({A.z, B.z, C.z});
     const double farthest = std::max({std::abs(A.z), std::abs(B.z), std::abs(C.z)});
@@ -84,9 +84,9 @@ inline Verdict verdict(const fast::Ray& ray, const fast::Triangle& triangle, dou
     return settled(ray, inside > margin, t - t_margin, t + t_margin, margin);
 }
 
-// What is found is within 22 u M of the sphere (see sphere.h): it is a hit of one that is larger or
-// smaller by so much. Whether the origin is inside must be as clear. `slack` as above: the sphere might
-// as well be elsewhere by so much.
+// A reported hit is within 22 u M of the sphere (see sphere.h): it is a hit of a sphere that is larger
+// or smaller by that. Whether the origin is inside must be certain by the same margin. `slack` as
+// above: the sphere may be displaced by that distance.
 inline Verdict verdict(const fast::Ray& ray, const fast::Sphere& sphere, double slack = 0)
 {
     const ref::Ray exact = exactly(ray);
@@ -104,7 +104,7 @@ inline Verdict verdict(const fast::Ray& ray, const fast::Sphere& sphere, double 
     const double longest = half_chord(r + bound);
     const double shortest = half_chord(r - bound);
     const bool clear = l < r - bound;
-    if (F > r + bound) // outside: the nearer one, if it lies ahead
+    if (F > r + bound) // outside: the nearer hit, if it is in front
         return settled(ray, clear, middle - longest, clear ? middle - shortest : middle + longest);
     if (F < r - bound) return settled(ray, true, middle + shortest, middle + longest);
     return settled(ray, false, middle - longest, middle + longest);

@@ -23,14 +23,15 @@ void explain_sight(const ref::World& world, const LineOfSight& line, bool seen)
     const ref::Vec3 direction = line.to_infinity ? line.to : line.to - line.from;
     const float t_max = line.to_infinity ? std::numeric_limits<float>::infinity() : 1.0f;
     const fast::Ray ray{fast::Vec3(line.from), t_max, fast::Vec3(direction)};
-    // The ray here is rounded as that of the floats is.
+    // The ray here is rounded like that of the fast path.
     const double rounding = 4 * roundoff * (glm::length(line.from) + glm::length(direction));
-    // A direction that turns by an angle passes what is in the scene at that angle times two diagonals.
+    // A direction that turns by an angle moves points of the scene by that angle times two diagonals.
     const double far_slack =
         line.to_infinity ? 2 * world.geometry.diagonal() * line.to_slack : line.to_slack;
     bool may_be_hit = false;
     for (std::uint32_t i = 0; i < scenes::primitive_count(scene); ++i) {
-        // At an end only that end matters: elsewhere the line is away from its surface.
+        // At an end only the slack of that end matters: elsewhere the line is away from the surface of
+        // the end.
         const double slack = rounding + (line.start == i ? line.from_slack
                                          : line.end == i ? line.to_slack
                                                          : std::max(line.from_slack, far_slack));
@@ -45,10 +46,10 @@ void explain_sight(const ref::World& world, const LineOfSight& line, bool seen)
             judged = verdict(
                 ray, fast::Sphere{fast::Vec3(sphere.center), static_cast<float>(sphere.radius)}, slack);
         }
-        require(!(seen && judged.certain), "a line of sight is not seen to be blocked");
+        require(!(seen && judged.certain), "a blocked line of sight counts as free");
         may_be_hit = may_be_hit || judged.possible;
     }
-    require(seen || may_be_hit, "a line of sight is blocked by nothing");
+    require(seen || may_be_hit, "a free line of sight counts as blocked");
     throw Undecided("a line of sight along an edge");
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Whether the floats may be right about what sees what, where the reference says otherwise.
+// Whether rounding explains that the fast path and the reference disagree about visibility.
 
 #include "tests/cuda/path_judge/followed_walk.h"
 
@@ -8,7 +8,7 @@
 
 namespace cuda_test {
 
-/// A segment, or a ray to infinity, that is tested for anything in its way. The floats' may begin and
+/// A segment, or a ray to infinity, that is tested for visibility. That of the fast path may begin and
 /// end elsewhere, within the slacks.
 struct LineOfSight {
     ref::Vec3 from;
@@ -16,16 +16,16 @@ struct LineOfSight {
     ref::Vec3 to; // or the direction
     double to_slack;
     bool to_infinity = false;
-    std::optional<std::uint32_t> start = {}, end = {}; // the primitives that it leaves and comes to
+    std::optional<std::uint32_t> start = {}, end = {}; // the primitives at its ends
 };
 
-/// How far the floats may have moved an end that is no surface, the eye or a light: not at all, unless
-/// it is on a surface or too near one for a float to tell on which side
+/// A bound on the distance by which the fast path may have moved an end that is not on a surface (the
+/// eye or a light): 0, unless the end is on a surface or too near one for a float to decide the side
 /// (cuda/scene/contact_arrays.cpp).
 double end_slack(const ref::World& world, const ref::Vec3& end);
 
-/// Nothing, if rounding can explain that the floats say `seen` and the reference the opposite: throws
-/// Undecided then, else Disagreement.
+/// The fast path has the visibility `seen`, and the reference the opposite. Throws Undecided if
+/// rounding can explain this, and Disagreement otherwise.
 [[noreturn]] void explain_sight(const ref::World& world, const LineOfSight& line, bool seen);
 
 } // namespace cuda_test

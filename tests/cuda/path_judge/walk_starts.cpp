@@ -1,4 +1,4 @@
-// How walks begin, and what their vertices must be.
+// The start of walks, and the conditions that their vertices must meet.
 
 #include "tests/cuda/path_judge/followed_walk.h"
 #include "tests/cuda/path_judge/path_rounding.h"
@@ -30,7 +30,7 @@ ref::SurfacePoint surface_of(const ref::World& world, const fast::SurfacePoint& 
     ref::SurfacePoint result{};
     result.position = Vec3(point.position);
     result.normal = Vec3(point.normal);
-    // So that leave_surface goes as far as the floats do: |n| times this is the clearance.
+    // So that leave_surface moves as far as the fast path does: |n| times this is the clearance.
     result.error = static_cast<double>(point.clearance) * glm::abs(result.normal);
     result.primitive = point.primitive;
     result.material = scenes::material_of(world.scene, point.primitive);
@@ -66,9 +66,10 @@ void require_on_surface(const ref::World& world, const fast::SurfacePoint& point
     }
     require(std::abs(off) <= bound, "a vertex is off its surface");
     require(glm::length(Vec3(point.normal) - normal) <= normal_error(world, surface_of(world, point)),
-            "a normal");
+            "a normal is wrong");
     const Range clearance = clearance_of(world, point.primitive, p, Vec3(point.normal));
-    require(point.clearance >= clearance.low && point.clearance <= clearance.high, "a clearance");
+    require(point.clearance >= clearance.low && point.clearance <= clearance.high,
+            "a clearance is wrong");
 }
 
 Range clearance_of(const ref::World& world, std::uint32_t primitive, const Vec3& p, const Vec3& normal)
@@ -105,19 +106,19 @@ double drawn_point_error(const ref::World& world, const ref::SurfacePoint& drawn
 
 namespace {
 
-/// The end of y_0 that is a surface: drawn as the reference does, but for rounding.
+/// The y_0 on a surface: it must be the reference's point, up to rounding.
 void require_drawn(const ref::World& world, const fast::SurfacePoint& point,
                    const ref::SurfacePoint& drawn)
 {
-    require(point.primitive == drawn.primitive, "the surface that light comes from");
+    require(point.primitive == drawn.primitive, "a light walk starts on a wrong surface");
     require_on_surface(world, point);
     const double error = drawn_point_error(world, drawn);
     require(glm::length(Vec3(point.position) - drawn.position) <= error,
-            "the point that light comes from");
+            "a light walk starts at a wrong point");
 }
 
-/// Whether another surface lies so close to the emitter's point, and beside it, that floats may take it
-/// to be covered (contact_arrays.cpp); the reference lets light into the gap.
+/// Whether another surface is so close to the emitter's point, and beside it, that the fast path may
+/// count the point as covered (contact_arrays.cpp); the reference lets light into the gap.
 bool has_near_surface(const ref::World& world, const ref::SurfacePoint& point)
 {
     const double near = 54 * roundoff * world.geometry.diagonal();
@@ -132,13 +133,13 @@ NextStep first_of_light(const Setting& setting, const fast::SampledEmission& emi
 {
     const ref::World& world = setting.world;
     const ref::Emitter& emitter = *drawn.y0.emitter;
-    // Emitted, area, probability, disc or solid angle, and what joins them.
+    // Factors: emission, area, probability, disc or solid angle; and their products.
     NextStep step{drawn.ray.origin, 0, drawn.ray.direction, direction_error, drawn.alpha, 16 * roundoff};
     switch (emitter.kind) {
     case ref::EmitterKind::triangle:
     case ref::EmitterKind::sphere: {
         require_drawn(world, emission.end, drawn.y0.point);
-        // Around the normal as the floats have it.
+        // Around the fast path's normal.
         const ref::SurfacePoint point = surface_of(world, emission.end);
         const ref::Frame frame(point.normal);
         step.direction =
@@ -163,12 +164,12 @@ NextStep first_of_light(const Setting& setting, const fast::SampledEmission& emi
     case ref::EmitterKind::directional:
     case ref::EmitterKind::environment: {
         const Vec3 towards(emission.towards);
-        require(glm::length(towards - drawn.y0.towards) <= 16 * roundoff, "where light comes from");
+        require(glm::length(towards - drawn.y0.towards) <= 16 * roundoff, "light has a wrong direction");
         const ref::Frame frame(towards);
         const glm::dvec2 disc = ref::sample_disc(direction[0], direction[1]);
         const double radius = world.emitters.radius();
         step.origin = radius * (disc.x * frame.x + disc.y * frame.y + 2.0 * towards);
-        step.slack = 48 * roundoff * radius; // 36 as of a direction, three times as long only along it
+        step.slack = 48 * roundoff * radius; // 36 as for a direction; three times as long only along it
         step.direction = -towards;
         step.error = 0;
         break;
@@ -185,14 +186,15 @@ FollowedWalk followed_light_walk(const Setting& setting, const WatchedSample& sa
     const ref::Uniforms position = float_uniforms(setting.id, ref::Event::emission_position);
     const ref::Uniforms direction = float_uniforms(setting.id, ref::Event::emission_direction);
     const auto drawn = sample_emission(setting.world, position, direction);
-    require(drawn.has_value() == sample.emission.has_value(), "whether there is light");
+    require(drawn.has_value() == sample.emission.has_value(), "a light walk exists in one wing only");
     if (!drawn) return {};
     const ref::Emitter& chosen = *setting.world.emitters.choose(position[0]);
-    require(&setting.world.emitters.all()[sample.emission->emitter] == &chosen, "the chosen emitter");
+    require(&setting.world.emitters.all()[sample.emission->emitter] == &chosen,
+            "another emitter is chosen");
 
     const NextStep step = first_of_light(setting, *sample.emission, *drawn, direction);
     const fast::Vec3 origin = sample.emission->ray.origin;
-    require(glm::length(Vec3(origin) - step.origin) <= step.slack, "where a light walk begins");
+    require(glm::length(Vec3(origin) - step.origin) <= step.slack, "a light walk has a wrong start");
     FollowedWalk walk{{drawn->y0}, {0}, {12 * roundoff}};
     ref::Vertex& y0 = walk.vertices[0];
     if (y0.kind == ref::Vertex::Kind::surface)
@@ -214,7 +216,7 @@ FollowedWalk followed_eye_walk(const Setting& setting, const WatchedSample& samp
     const ref::Camera& camera = setting.world.camera;
     const auto width = static_cast<std::uint32_t>(camera.width());
     const ref::Uniforms u = float_uniforms(setting.id, ref::Event::camera);
-    // Where the floats begin: contact_arrays_test.cpp says that it is on the right side of every
+    // The fast path's start. contact_arrays_test.cpp tests that it is on the right side of every
     // surface.
     const ref::Ray ray = camera.ray({setting.id.pixel % width + u[0], setting.id.pixel / width + u[1]});
     const scenes::Camera& source = setting.world.scene.camera.value();

@@ -8,7 +8,8 @@ WatchedSample WatchedScene::sample(fast::Integrator integrator, const fast::Path
     using enum fast::Integrator;
     WatchedSample result;
     const WatchingSink sink{result, id.pixel};
-    // What is there before a sample must not matter: it is nothing that any scene has.
+    // The previous contents of the memory must not matter, so it is filled with values that no scene
+    // has.
     const int capacity = integrator == bdpt ? fast::most_light_vertices(arrays_, options.max_edges) : 0;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const fast::LightVertex junk{fast::Vec3(nan), nan, fast::Vec3(nan), nan, fast::Rgb(nan), nan, {}};

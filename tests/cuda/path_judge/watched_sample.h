@@ -1,6 +1,6 @@
 #pragma once
 
-// A sample of the fast path with all that it did on the way.
+// A sample of the fast path with a record of all its steps.
 
 #include "cuda/launch/launch_samples.h"
 #include "cuda/parallel/executor.h"
@@ -12,7 +12,7 @@
 
 namespace cuda_test {
 
-/// What one sample contributed and how its walks went.
+/// The contributions of one sample, and its walks.
 struct WatchedSample {
     struct Found {
         std::uint32_t pixel;
@@ -21,7 +21,7 @@ struct WatchedSample {
     };
     struct Walk {
         std::vector<fast::WalkVertex> vertices; // from v_1 on
-        std::optional<fast::Leg> missed;        // the leg that met nothing
+        std::optional<fast::Leg> missed;        // the leg that hit nothing
     };
     std::optional<fast::SampledEmission> emission;
     Walk light, eye;
@@ -29,7 +29,7 @@ struct WatchedSample {
     bool found_twice = false;                   // the same (s, t)
 };
 
-/// The sink that keeps it.
+/// The sink that makes this record.
 struct WatchingSink {
     WatchedSample& sample;
     std::uint32_t pixel;
@@ -71,7 +71,7 @@ public:
           scene_(memory_, executor_, arrays_, fast::camera_of(scene, arrays_.place, width, height))
     {}
 
-    /// How many vertices a light walk may have.
+    /// The largest number of vertices of a light walk.
     [[nodiscard]] int most_light_vertices(fast::Integrator integrator, int max_edges) const
     {
         return integrator == fast::Integrator::bdpt

@@ -1,4 +1,4 @@
-// Scenes of any size and in any place: the same picture, though floats have seven digits.
+// Scenes of any size and at any place give the same picture, although floats have only seven digits.
 
 #include "cuda/launch/renderer.h"
 #include "scenes/bounds.h"
@@ -37,9 +37,9 @@ double diameter(const scenes::Scene& scene)
     return box ? glm::length(box->max - box->min) : 0.0;
 }
 
-/// The share of pixels that differ by more than a thousandth. The same random numbers make the same
-/// paths but where rounding decides, which is at edges that a ray passes within some 2^-20 of a scene's
-/// diameter, and a curved mirror or glass can stretch that: a few samples in a thousand.
+/// The fraction of pixels that differ by more than a thousandth. The same random numbers make the same
+/// paths except where rounding decides: at edges that a ray passes within about 2^-20 of the scene's
+/// diameter. Curved mirrors or glass can magnify that: a few samples in a thousand.
 double share_of_different_pixels(const images::Image& a, const images::Image& b)
 {
     int different = 0;
@@ -48,7 +48,7 @@ double share_of_different_pixels(const images::Image& a, const images::Image& b)
     return different / static_cast<double>(a.pixels.size());
 }
 
-/// Lights of no extent are measured by the square of a length: as far as that is a number.
+/// Lights without extent are scaled by the square of a length, which must not overflow.
 constexpr int largest_exponent = 300;
 
 RC_GTEST_PROP(Anywhere, ScalingByAPowerOfTwoChangesNoBit, ())
@@ -76,7 +76,7 @@ RC_GTEST_PROP(Anywhere, ThePictureIsTheSameAtAnySizeAndPlace, ())
     const double distance = diameter(scene) * std::pow(10.0, *rc::gen::inRange(0, 41) / 10.0);
     const auto changed = transport_test::scaled(
         transport_test::moved(scene, distance * scenes::Vec3(0.6, -0.64, 0.48)), factor);
-    // One pixel in 50: of four samples each and up to 40 contributions.
+    // One pixel in 50, each of four samples with up to 40 contributions.
     RC_ASSERT(share_of_different_pixels(picture_of(scene), picture_of(changed)) <= 0.02);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// The mean of a whole picture, all channels together, batch by batch, from either wing: what tests
-// compare that ask whether two renderers agree.
+// The mean of a whole picture, over all channels, batch by batch, from the fast path or from the
+// reference, for tests that compare renderers.
 
 #include "cuda/launch/renderer.h"
 #include "ref/transport/render.h"
@@ -17,7 +17,7 @@ namespace cuda_test {
 /// One number per batch.
 using Means = std::vector<double>;
 
-/// How much is rendered: a square picture of `size` pixels a side.
+/// The number of samples: a square picture of `size` pixels a side.
 struct Samples {
     int size;
     std::uint64_t batches;
@@ -43,7 +43,7 @@ inline Means means_by_ref(const scenes::Scene& scene, ref::Integrator integrator
     return means;
 }
 
-/// Contributions that are not finite are failures.
+/// Contributions that are not finite make the test fail.
 inline Means means_by_host(const scenes::Scene& scene, fast::Integrator integrator, int max_edges,
                            std::uint64_t seed, const Samples& samples)
 {
@@ -69,7 +69,7 @@ inline double average(const Means& means)
     return sum / static_cast<double>(means.size());
 }
 
-/// Standard error of the average.
+/// The standard error of the average.
 inline double error_of(const Means& means)
 {
     const double middle = average(means);

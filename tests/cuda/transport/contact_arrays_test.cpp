@@ -1,7 +1,7 @@
-// The ends of paths that are no surfaces: the eye, point and spot lights. Judging paths from the floats'
-// own vertices does not see where the floats have put these; so their place is judged here, by the scene
-// in double precision: they begin their rays on the side of every surface on which they are, however
-// near it.
+// Ends of paths that are not on surfaces: the eye, point lights and spot lights. The path judge starts
+// from the fast path's own vertices, so it cannot detect a wrong position of these ends. Therefore
+// their positions are tested here, against the scene in double precision: rays must start on the right
+// side of every surface that the end lies on, or near.
 
 #include "cuda/scene/scene_arrays.h"
 #include "cuda/trees/clearance.h"
@@ -20,7 +20,7 @@ namespace {
 using cuda_test::Touching;
 using scenes::Vec3;
 
-/// As kernels do it (leave_end).
+/// As in kernels (leave_end).
 Vec3 origin_of(const fast::SceneArrays& arrays, const fast::Vec3& position,
                const fast::EndContacts& contacts, const fast::Vec3& direction, float length)
 {
@@ -33,7 +33,7 @@ Vec3 origin_of(const fast::SceneArrays& arrays, const fast::Vec3& position,
     return Vec3(origin);
 }
 
-/// How far `p` is from the triangle's plane as floats have it, along its normal.
+/// The distance of `p` from the triangle's plane in float, along its normal.
 double height_over(const fast::Triangle& triangle, const Vec3& p)
 {
     const Vec3 a(triangle.vertices[0]);
@@ -54,7 +54,7 @@ void check_end(const scenes::Scene& scene, const fast::SceneArrays& arrays, cons
                const fast::Vec3& position, const fast::EndContacts& contacts)
 {
     const fast::Vec3 direction(any_direction());
-    // Of a ray that leaves, or of a segment of any length that comes.
+    // For a ray that leaves, or for a segment of any length that arrives.
     const double length =
         static_cast<double>(arrays.diagonal) * std::max(0, *rc::gen::inRange(-5, 11)) / 10;
     const Vec3 origin = origin_of(arrays, position, contacts, direction, static_cast<float>(length));
@@ -66,8 +66,8 @@ void check_end(const scenes::Scene& scene, const fast::SceneArrays& arrays, cons
         const int side = surface.side != 0                               ? surface.side
                          : glm::dot(Vec3(direction), surface.normal) < 0 ? -1
                                                                          : 1;
-        // What a ray or segment may err by (clearance.h, steps 3 and 4): nearer than that a plane would
-        // be met by chance.
+        // The error of a ray or segment (clearance.h, steps 3 and 4): a plane closer than that could
+        // be hit by rounding.
         const auto& v = arrays.triangles[surface.primitive].vertices;
         const Vec3 a(fast::triangle_extent(v[1] - v[0], v[2] - v[0]));
         const Vec3 n = glm::abs(surface.normal);
@@ -77,8 +77,8 @@ void check_end(const scenes::Scene& scene, const fast::SceneArrays& arrays, cons
         ++looked_at;
     }
     RC_CLASSIFY(looked_at > 0, "near a triangle");
-    // And it stays where it is: three planes at right angles move it by sqrt(3) clearances at most, each
-    // of 14 u D for the ray, 3 u D for what was rounded, and 24 u for each unit of length.
+    // And the origin hardly moves: three planes at right angles move it by at most sqrt(3) clearances,
+    // each of 14 u D for the ray, 3 u D for the rounded coordinates, and 24 u per unit of length.
     RC_ASSERT(glm::length(origin - (exact - arrays.place.origin) * arrays.place.scale) <
               std::sqrt(3.0) * 0x1p-24 * (18 * arrays.diagonal + 24.1 * length));
 }
@@ -88,7 +88,7 @@ RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())
     const auto kind = *rc::gen::element(Touching::point_light_on_lamp, Touching::point_light_on_wall,
                                         Touching::point_light_in_corner, Touching::spot_light_on_wall,
                                         Touching::eye_on_wall, Touching::eye_in_edge);
-    // None, or anything from far below a float's rounding to far above.
+    // 0, or a distance from far below the rounding of floats to far above it.
     const double gap =
         *rc::gen::inRange(0, 4) == 0 ? 0 : std::pow(10, -0.1 * *rc::gen::inRange(30, 120));
     const scenes::Scene scene =
@@ -116,13 +116,13 @@ TEST(EndsOfPaths, OfAnOrdinarySceneTouchNothing)
     EXPECT_TRUE(arrays.coincident.empty());
 }
 
-// Floats cannot tell a lamp that is 1e-9 in front of its wall from one behind it; doubles can.
+// Floats cannot tell whether a lamp is 1e-9 in front of its wall or behind it; doubles can.
 TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
 {
     for (const double gap : {1e-9, -1e-9, 0.0}) {
         const scenes::Scene scene = cuda_test::touching_scene(Touching::lamp_in_wall, 2, gap);
         const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
-        // The lamp's triangles are the last; the wall that they coincide with faces as they do.
+        // The lamp's triangles are the last; the wall that they coincide with faces the same way.
         const fast::SurfaceContacts& lamp = arrays.surface_contacts[arrays.surfaces.back().contacts];
         ASSERT_GT(lamp.coincident_count, 0u);
         for (std::uint32_t i = 0; i < lamp.coincident_count; ++i)
@@ -135,7 +135,7 @@ TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
     EXPECT_TRUE(fast::scene_arrays(apart, true).coincident.empty());
 }
 
-// They may be as small as the distance up to which surfaces are near.
+// Coincident surfaces may be as small as the distance up to which surfaces count as near.
 TEST(CoincidentSurfaces, AreFoundHoweverSmall)
 {
     for (const double size : {1.0, 1e-2, 1e-4, 1e-5}) {

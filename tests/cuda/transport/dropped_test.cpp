@@ -1,4 +1,4 @@
-// Contributions that are not finite never reach a film; how many there were does not depend on threads.
+// Contributions that are not finite never reach a film, and their number does not depend on threads.
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/transport/film.h"
@@ -25,8 +25,8 @@ struct SmallFilm {
     fast::FilmTarget target{own, {splats, {}}, {}, dropped, false, pixels};
 };
 
-/// Kernel over samples: each adds a finite contribution, and one that is not, to its pixel and to
-/// another.
+/// Kernel over samples: each adds a finite contribution, and one that is not finite, to its own pixel
+/// and to another one.
 struct AddToFilm {
     fast::FilmTarget target;
     void operator()(std::uint32_t i) const

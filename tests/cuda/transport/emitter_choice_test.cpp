@@ -1,5 +1,4 @@
-// The choice of an emitter in floats is that of the reference, number for number; and no emitter is
-// starved.
+// The fast path chooses the same emitter as the reference for every number, and no emitter is starved.
 
 #include "cuda/launch/renderer.h"
 #include "cuda/transport/emitter_choice.h"
@@ -65,7 +64,7 @@ TEST_P(StarvedLampInFloat, LightsThePlaneBesideEmittersOfAnyPower)
 
 TEST_P(StarvedLampInFloat, LightsThePlaneUnderAWideSky)
 {
-    if (GetParam() == fast::Integrator::light) return; // from there it does not find what is seen
+    if (GetParam() == fast::Integrator::light) return; // light tracing does not find what is seen
     for (const double half_width : {1e1, 1e2, 1e4}) {
         SCOPED_TRACE(half_width);
         const scenes::Scene scene = transport_test::lamp_under_sky(half_width);

@@ -1,4 +1,4 @@
-// Sums that are the same in every order, against integers of any length.
+// Sums that are equal in every order, compared with integers of any length.
 
 #include "cuda/transport/exact_sum.h"
 
@@ -24,7 +24,7 @@ using fast::ExactSum;
 constexpr float largest = std::numeric_limits<float>::max();
 constexpr float smallest = std::numeric_limits<float>::denorm_min(); // 2^-149
 
-/// Every finite float >= 0 is as likely, subnormal ones included.
+/// Every finite float >= 0 with equal probability, subnormal ones included.
 rc::Gen<float> any_term()
 {
     return rc::gen::map(transport_test::any_word(), [](std::uint32_t word) {
@@ -37,7 +37,7 @@ std::vector<float> any_terms()
     return *rc::gen::container<std::vector<float>>(any_term());
 }
 
-/// In units of 2^-149, of which every float is a multiple.
+/// The float in units of 2^-149; every float is a multiple of that.
 cpp_int in_units(float term)
 {
     int exponent = 0;
@@ -47,7 +47,7 @@ cpp_int in_units(float term)
     if (shift >= 0)
         units <<= shift;
     else
-        units >>= -shift; // zeros, of a subnormal number
+        units >>= -shift; // only zeros, since the float is subnormal
     return units;
 }
 
@@ -75,8 +75,8 @@ cpp_int exactly(std::span<const float> terms)
     return sum;
 }
 
-/// Each word is rounded when it becomes a double, and so is each of eight sums; all are positive, so
-/// that relative errors do not grow: 9 roundings, and those of the quotient here.
+/// Each word is rounded when it is converted to double, and so is each of eight sums. All are
+/// positive, so relative errors do not grow: 9 roundings, and those of the quotient here.
 void expect_value(const ExactSum& sum, const cpp_int& units)
 {
     using Wide = long double;
@@ -133,7 +133,7 @@ TEST(ExactSum, OfWhatIsNoSizeIsNoNumber)
         sum.add(1.0f);
         EXPECT_TRUE(std::isnan(sum.value())) << bad;
     }
-    EXPECT_EQ(sum_of(std::vector<float>{1.0f, -0.0f, 0.0f}).value(), 1.0); // no light is no fault
+    EXPECT_EQ(sum_of(std::vector<float>{1.0f, -0.0f, 0.0f}).value(), 1.0); // a term of 0 is valid
 }
 
 struct AddTerms {

@@ -1,4 +1,4 @@
-// What is said of scenes that floats do not hold.
+// The notices for scenes that floats cannot represent.
 
 #include "cuda/scene/float_notices.h"
 
@@ -37,7 +37,7 @@ TEST(FloatNotices, SayNothingOfTheScenesHere)
 TEST(FloatNotices, NameWhatCollapses)
 {
     scenes::Scene scene = ground();
-    scene.triangles.push_back({{Vec3(0), Vec3(1, 0, 0), Vec3(1, 0, 0)}, 1}); // has no area anyway
+    scene.triangles.push_back({{Vec3(0), Vec3(1, 0, 0), Vec3(1, 0, 0)}, 1}); // no area in double
     EXPECT_TRUE(fast::float_notices(scene).empty());
     scene.triangles.push_back(speck(1e-9));
     scene.triangles.push_back(speck(1e-9));
@@ -71,7 +71,7 @@ TEST(FloatNotices, NameEndsWhoseHeightIsNotKnown)
         scene.point_lights = {{Vec3(0.3, 0, height), scenes::Rgb(1.0)}};
         return fast::float_notices(scene);
     };
-    EXPECT_TRUE(with_light_at(0.0).empty()); // there is a rule
+    EXPECT_TRUE(with_light_at(0.0).empty()); // decided by a rule
     EXPECT_TRUE(with_light_at(1e-5).empty());
     ASSERT_EQ(with_light_at(1e-8).size(), 1u);
     EXPECT_TRUE(
@@ -88,7 +88,7 @@ TEST(FloatNotices, NameGlassTooCloseToAnotherSurface)
         scene.triangles.push_back({{Vec3(0, -0.5, gap), Vec3(0.5, 0, gap), Vec3(0, 0, gap)}, 1});
         return fast::float_notices(scene);
     };
-    EXPECT_TRUE(notices(0.0).empty()); // there is a rule
+    EXPECT_TRUE(notices(0.0).empty()); // decided by a rule
     EXPECT_TRUE(notices(1e-5).empty());
     ASSERT_EQ(notices(1e-7).size(), 1u);
     EXPECT_TRUE(notices(1e-7)[0].starts_with(

@@ -44,7 +44,7 @@ void round_materials(scenes::Scene& scene)
     }
 }
 
-/// Lights of no extent, from where `origin` is 0 and lengths are multiplied by `scale`.
+/// Rounds the lights without extent, relative to `origin` and with lengths multiplied by `scale`.
 void round_lights(scenes::Scene& scene, const Vec3& origin, double scale)
 {
     const double square = scale * scale;
@@ -67,7 +67,8 @@ void round_camera(scenes::Camera& camera, const Vec3& origin, double scale)
     camera.backward = rounded(camera.backward);
 }
 
-/// Every position on a surface, and with it every sphere's radius, to the nearest multiple of `step`.
+/// Rounds every position on a surface, and so every sphere's radius, to the nearest multiple of
+/// `step`.
 void round_surfaces(scenes::Scene& scene, double step)
 {
     for (auto& triangle : scene.triangles)
@@ -78,7 +79,7 @@ void round_surfaces(scenes::Scene& scene, double step)
     }
 }
 
-/// Moves the surfaces so that `origin` comes to 0, and scales them.
+/// Moves the surfaces so that `origin` becomes 0, and scales them.
 void place_surfaces(scenes::Scene& scene, const Vec3& origin, double scale)
 {
     for (auto& triangle : scene.triangles)
@@ -89,7 +90,7 @@ void place_surfaces(scenes::Scene& scene, const Vec3& origin, double scale)
     }
 }
 
-/// The power of two that brings the diameter of the scene to between 1 and 2.
+/// The power of two that scales the diameter of the scene to between 1 and 2.
 double scale_of(const scenes::Bounds& box)
 {
     return std::exp2(-std::floor(std::log2(glm::length(box.max - box.min))));
@@ -114,8 +115,9 @@ scenes::Scene float_scene(scenes::Scene scene)
     if (const auto box = scenes::bounds(scene)) {
         origin = (box->min + box->max) / 2.0;
         place_surfaces(scene, origin, 1.0);
-        // The box then begins and ends on the grid, so that its centre is at a multiple of half a step;
-        // what lies in the box is less than 2^23 half steps from it, for which a float has the bits.
+        // The box then begins and ends on the grid, so that its centre is at a multiple of half a
+        // step. Every point in the box is less than 2^23 half steps from it, which a float holds
+        // exactly.
         round_surfaces(scene, 0x1p-21 / scale_of(*box));
         const auto on_grid = scenes::bounds(scene);
         const Vec3 rest = (on_grid->min + on_grid->max) / 2.0;

@@ -1,21 +1,21 @@
 #pragma once
 
-// Scenes of which floats hold every number exactly, so that both wings see the very same one.
+// Scenes in which floats hold every number exactly, so that both wings render exactly the same scene.
 
 #include "scenes/scene.h"
 
 namespace cuda_test {
 
-/// `scene` on a grid of 2^-22 of its diagonal or somewhat coarser, with the centre of its box at the
-/// origin, a diagonal between 1 and 2, by a power of two, and every number of it a float; of a
-/// spot's cos_cutoff, 1 - cos_cutoff is. Differences of
-/// coordinates are exact in single precision; and where fast::scene_arrays moves and scales a scene, it
-/// leaves this one where it is. Radiance is what it was.
+/// `scene` scaled by a power of two to a diagonal between 1 and 2, with the centre of its box at the
+/// origin, and rounded to a grid of 2^-22 of its diagonal or somewhat coarser. Every number of it is a
+/// float, except that for the cos_cutoff of a spot 1 - cos_cutoff is one. Differences of coordinates
+/// are exact in single precision, and fast::scene_arrays does not move or scale this scene. Radiance
+/// does not change.
 scenes::Scene float_scene(scenes::Scene scene);
 
-/// `x` rounded to the nearest float. GCC 12.2 drops the rounding from double to float and back wherever
-/// it vectorises it (p[0] = (float)p[0]; p[1] = (float)p[1]; at -O2): a call that is not inlined keeps
-/// it.
+/// `x` rounded to the nearest float. GCC 12.2 drops the rounding from double to float and back
+/// wherever it vectorises it (p[0] = (float)p[0]; p[1] = (float)p[1]; at -O2). A call that is not
+/// inlined keeps the rounding.
 double nearest_float(double x);
 scenes::Vec3 nearest_float(const scenes::Vec3& v);
 

@@ -16,8 +16,8 @@ scenes::Scene all_emitters()
     return scenes::read_scene(std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "scenes/all_emitters.dae");
 }
 
-/// What the paths are compared in is the scene that was asked for: all places seen from the eye are
-/// where they were, at another scale, to within the grid.
+/// The scene in which paths are compared is the original one: all places seen from the eye are the
+/// same, at another scale, up to the grid.
 TEST(FloatScene, KeepsEveryPlace)
 {
     const scenes::Scene scene = all_emitters();
@@ -37,7 +37,7 @@ TEST(FloatScene, KeepsEveryPlace)
     ASSERT_EQ(before.size(), after.size());
     const double scale =
         std::exp2(std::round(std::log2(glm::length(after[0]) / glm::length(before[0]))));
-    const double grid = 0x1p-20; // of a diagonal between 1 and 2; the eye is as far as that
+    const double grid = 0x1p-20; // of a diagonal between 1 and 2; the eye is at a similar distance
     for (std::size_t i = 0; i < before.size(); ++i)
         EXPECT_LE(glm::length(after[i] - scale * before[i]), grid) << i;
     ASSERT_FALSE(scene.point_lights.empty() || scene.spot_lights.empty());

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// The integral over [-1, 1]^2.
+/// The integral over the square [-1, 1]^2.
 template <class Value>
 auto square_integral(const Value& value)
 {
@@ -24,7 +24,7 @@ auto square_integral(const Value& value)
     constexpr std::array node = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
     constexpr std::array weight = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
     decltype(value(0.0, 0.0)) sum(0.0);
-    const auto along = [&](int i) { // of two halves
+    const auto along = [&](int i) { // two halves per axis
         const double x = node[static_cast<std::size_t>(i / 2 % 3)] * (i % 2 == 0 ? 1 : -1);
         return std::pair((x + (i < 6 ? 1 : -1)) / 2, weight[static_cast<std::size_t>(i / 2 % 3)] / 2);
     };
@@ -47,9 +47,10 @@ Rgb mean_over_film(const PlaneEye& eye, const Irradiance& irradiance)
            4.0;
 }
 
-/// The mean over the film of the irradiance by a spot light all of which is seen: of its flux through
-/// the directions around `axis` within the angle of cosine `cos_cutoff`. A piece of the plane dA at the
-/// distance d covers dA cos / d^2 / cos_film^3 / (2 span)^2 of the film.
+/// The mean over the film of the irradiance from a spot light whose whole cone is visible: the
+/// integral of its flux over the directions around `axis` within the angle of cosine `cos_cutoff`. A
+/// piece of the plane dA at distance d covers the fraction dA cos / d^2 / cos_film^3 / (2 span)^2 of
+/// the film.
 double mean_of_narrow_spot(const PlaneEye& eye, const Vec3& from, const Vec3& axis, double cos_cutoff,
                            double exponent)
 {
@@ -91,7 +92,7 @@ void LitPlane::add_point()
     if (builder_.chance(0.3)) {
         p = {0, -1, builder_.any_size(1e-4, 0.05)};
         builder_.say("point light above the plane by", p.z);
-        intensity /= p.z; // so that what it does is not much less
+        intensity /= p.z; // so that its effect is not much smaller
         watch(p.z);
         far_or_low_ = true;
     } else {
@@ -111,7 +112,8 @@ void LitPlane::add_spot()
     const double exponent = builder_.chance(0.3) ? 0 : builder_.any(0, 9);
     const Rgb intensity = builder_.any_colour(0.5, 2);
     builder_.say("spot light");
-    // All within 0.5 of the origin is in the cone: cosine of the largest angle, less a little.
+    // All points within 0.5 of the origin are in the cone: the cosine of the largest angle, minus a
+    // little.
     double cutoff = 1;
     for (int i = 0; i < 64; ++i) {
         const Vec3 x(0.5 * std::cos(i * pi / 32), 0.5 * std::sin(i * pi / 32), 0);
@@ -130,8 +132,8 @@ void LitPlane::add_narrow_spot()
     const Vec3 p = any_place();
     const Vec3 at = eye_.from - eye_.from.z / eye_.along.z * eye_.along; // the middle of the picture
     const Vec3 axis = glm::normalize(at - p);
-    // The picture is at least 2 span |at - eye| wide there; the spot's width is that of its angle on a
-    // slanting plane.
+    // The picture is at least 2 span |at - eye| wide there; the width of the spot is that of its angle
+    // on a slanting plane.
     const double widest = 0.5 * eye_.span * glm::length(at - eye_.from) / glm::length(at - p) * -axis.z;
     const double angle = std::max(narrowest_spot, builder_.any_size(1e-3, 0.9) * widest);
     const double exponent = builder_.chance(0.5) ? 0 : builder_.any(0, 9);
@@ -141,7 +143,8 @@ void LitPlane::add_narrow_spot()
     builder_.add_spot_light(p, axis, intensity, cutoff, exponent);
     irradiance_ += intensity * mean_of_narrow_spot(eye_, p, axis, cutoff, exponent);
     narrow_ = true;
-    // Directions err by at most sqrt(3) unit roundoffs: the cone's width by as much at both ends.
+    // Directions have an error of at most sqrt(3) unit roundoffs, which changes the width of the cone
+    // by as much at both ends.
     spot_tolerance_ = 4 * 0x1p-24 / angle;
 }
 
@@ -149,7 +152,7 @@ void LitPlane::add_sun()
 {
     const bool low = builder_.chance(0.3);
     const double z = low ? builder_.any_size(1e-4, 0.1) : builder_.any(0.2, 1);
-    // From the side of x > 0: the lamp is on the other.
+    // From the side of x > 0; the lamp is on the other side.
     const Vec3 w = builder_.exact() && !low ? Vec3(0, 0, -1) : Vec3(-std::sqrt(1 - z * z), 0, -z);
     if (low) {
         builder_.say("sun above the horizon by", z);
@@ -172,7 +175,8 @@ void LitPlane::add_sky()
     far_or_low_ = true;
 }
 
-/// Square, above the plane, farther than the point lights from all that is seen. The sky is set later.
+/// A square lamp above the plane, farther than the point lights from every visible point. The sky is
+/// set later.
 void LitPlane::add_lamp()
 {
     const bool tiny = builder_.chance(0.3);
@@ -189,8 +193,8 @@ void LitPlane::add_lamp()
     const std::array corners = {p, p + Vec3(0, width, 0), p + Vec3(width, width, 0),
                                 p + Vec3(width, 0, 0)};
     const Irradiance per_radiance = [corners](const Vec3& x) {
-        // Half the sum over the edges of the angle that an edge subtends, times the cosine between the
-        // plane's normal and that of the plane through edge and point.
+        // Half the sum, over the edges, of the angle that an edge subtends times the cosine between
+        // the normal of the plane and that of the plane through the edge and the point.
         double sum = 0;
         for (std::size_t i = 0; i < 4; ++i) {
             const Vec3 a = corners[i] - x;

@@ -1,11 +1,11 @@
 #pragma once
 
-// Lights over the plane z = 0, and what they do to a picture of it, in closed form.
+// Lights above the plane z = 0, and the mean of a picture of the plane, in closed form.
 //
-// A picture's mean is the integral of the irradiance over the film, by the rule of Gauss and Legendre
-// with 6 x 6 points per quarter, which for functions as smooth as these is exact to 1e-9. Light that
-// falls on a part of the picture only, from a narrow spot, is integrated over the directions of the spot
-// instead.
+// The mean of a picture is the integral of the irradiance over the film, by Gauss-Legendre quadrature
+// with 6 x 6 points per quarter, which is accurate to 1e-9 for functions as smooth as these. The light
+// of a narrow spot falls only on a part of the picture; it is integrated over the directions of the
+// spot instead.
 
 #include "tests/cuda/transport/odd_builder.h"
 
@@ -26,7 +26,7 @@ using Irradiance = std::function<scenes::Rgb(const scenes::Vec3&)>;
 /// Half the full angle of the narrowest spot light: the fast path rejects any below 1.53e-5.
 inline constexpr double narrowest_spot = 2e-5;
 
-/// Collects lights and what they do.
+/// Collects lights and their closed forms.
 class LitPlane {
 public:
     LitPlane(OddBuilder& builder, const PlaneEye& eye) : builder_(builder), eye_(eye)
@@ -43,11 +43,11 @@ public:
 
     [[nodiscard]] const scenes::Rgb& irradiance() const { return irradiance_; } // its mean over the film
     [[nodiscard]] bool has_narrow_spot() const { return narrow_; }
-    [[nodiscard]] bool far_or_low() const { return far_or_low_; } // any but lights near and above it
-    /// How much larger than a unit roundoff the relative errors are that lengths in units of the frame,
-    /// and angles, make in what the lights do: 1 / length and 1 / cosine.
+    [[nodiscard]] bool far_or_low() const { return far_or_low_; } // any light that is not near and high
+    /// How much larger than a unit roundoff the relative errors of lengths (in units of the frame) and
+    /// of angles become in the irradiance: 1 / length and 1 / cosine.
     [[nodiscard]] double condition() const { return condition_; }
-    /// What single precision may change in the power of a narrow spot light, relative to it.
+    /// The relative error that single precision may cause in the power of a narrow spot light.
     [[nodiscard]] double spot_tolerance() const { return spot_tolerance_; }
 
 private:
@@ -61,7 +61,7 @@ private:
     bool narrow_ = false, far_or_low_ = false;
     double condition_ = 10;
     double spot_tolerance_ = 0;
-    scenes::Rgb under_sky_{0}; // mean over the film of the irradiance that a lamp hides, per radiance
+    scenes::Rgb under_sky_{0}; // mean irradiance over the film that a lamp hides, per radiance
 };
 
 } // namespace cuda_test

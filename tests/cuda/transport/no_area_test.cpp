@@ -1,5 +1,5 @@
-// Triangles without area stop no ray on the fast path, wherever they lie and whatever rounding makes of
-// their corners; thin ones do.
+// Triangles without area stop no ray on the fast path, at any place and for any rounding of their
+// corners; thin triangles with area do.
 
 #include "cuda/launch/renderer.h"
 #include "cuda/parallel/threaded_executor.h"
@@ -25,7 +25,8 @@ using scenes::Vec3;
 using trees_test::Random;
 using Corners = std::array<Vec3, 3>;
 
-/// A place that floats hold, with coordinates of 1/4 at least: what is 1e-10 away is the same for them.
+/// A position that floats hold exactly, with coordinates of at least 1/4, so that a distance of 1e-10
+/// from it is rounded away.
 Vec3 float_place(Random& random)
 {
     Vec3 place = random.in_cube();
@@ -33,9 +34,9 @@ Vec3 float_place(Random& random)
     return cuda_test::nearest_float(place);
 }
 
-/// What has no area in the scene.
+/// The kinds of triangles that have no area in the scene.
 constexpr std::size_t kinds_in_double = 4;
-/// And what has none as floats.
+/// All kinds, including those that have no area only as floats.
 constexpr std::size_t kinds = 6;
 
 Corners without_area(std::size_t kind, Random& random)
@@ -51,13 +52,13 @@ Corners without_area(std::size_t kind, Random& random)
     case 1:
         v = {a, a, b};
         break;
-    case 2: // on a line to within the rounding of doubles
+    case 2: // on a line up to the rounding of doubles
         v = {a, b, a + t * (b - a)};
         break;
     case 3: // on a line along an axis
         v = {a, a + Vec3(0.7, 0, 0), a + Vec3(0.7 * t, 0, 0)};
         break;
-    case 4: { // less than the distance of neighbouring floats
+    case 4: { // less than the distance between neighbouring floats
         const Vec3 p = float_place(random);
         v = {p, p + 1e-10 * random.in_cube(), p + 1e-10 * random.in_cube()};
         break;
@@ -74,7 +75,7 @@ Corners without_area(std::size_t kind, Random& random)
     return v;
 }
 
-/// How many of the rays hit something.
+/// The number of rays that hit something.
 std::size_t hits(const std::vector<fast::Triangle>& triangles, const std::vector<fast::Ray>& rays)
 {
     fast::HostMemory memory;
@@ -97,7 +98,7 @@ TEST(TrianglesWithoutArea, AreHitByNoRay)
     for (std::size_t i = 0; i < 1200; ++i)
         scene.triangles.push_back({without_area(i % kinds, random), 0});
     std::vector<fast::Triangle> corner_by_corner;
-    std::vector<fast::Ray> rays; // to where they are
+    std::vector<fast::Ray> rays; // towards the triangles
     for (const scenes::Triangle& triangle : scene.triangles) {
         const auto& v = triangle.vertices;
         corner_by_corner.push_back({{fast::Vec3(v[0]), fast::Vec3(v[1]), fast::Vec3(v[2])}});
@@ -108,7 +109,7 @@ TEST(TrianglesWithoutArea, AreHitByNoRay)
             rays.push_back({origin, std::numeric_limits<float>::infinity(), to - origin});
         }
     }
-    EXPECT_GT(hits(corner_by_corner, rays), rays.size() / 100); // else nothing is tested
+    EXPECT_GT(hits(corner_by_corner, rays), rays.size() / 100); // otherwise the test is empty
     EXPECT_EQ(hits(fast::triangles_of(scene), rays), 0u);
 }
 
@@ -125,7 +126,7 @@ TEST(TrianglesWithoutArea, AreFoundInEveryPlaceAndSize)
     }
 }
 
-// Down to a height of 2^-18: 64 times what rounding moves a corner by.
+// Down to a height of 2^-18: 64 times the distance by which rounding moves a corner.
 TEST(TrianglesWithLittleArea, KeepEveryCorner)
 {
     Random random(3);
@@ -145,7 +146,7 @@ TEST(TrianglesWithLittleArea, KeepEveryCorner)
     for (std::size_t i = 0; i < triangles.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k)
             EXPECT_EQ(triangles[i].vertices[k], fast::Vec3(scene.triangles[i].vertices[k]));
-    // And they are still there for rays to their middles.
+    // And rays to their middles still hit them.
     std::vector<fast::Ray> rays;
     for (const scenes::Triangle& triangle : scene.triangles) {
         const auto& v = triangle.vertices;
@@ -192,7 +193,8 @@ std::string refusal_of(const scenes::Scene& scene)
     return "";
 }
 
-// A lamp that floats cannot hold is not left out without a word, unless nobody would see the difference.
+// A lamp that floats cannot represent is rejected, unless its share of the light is too small to be
+// visible.
 TEST(TrianglesWithoutArea, ThatGiveMuchOfTheLightAreRefused)
 {
     scenes::Scene scene = under_a_sky();
@@ -204,14 +206,14 @@ TEST(TrianglesWithoutArea, ThatGiveMuchOfTheLightAreRefused)
                                      "precision, and 100"),
               std::string::npos)
         << refusal_of(scene);
-    // Beside another lamp it counts for 1e-20 of the light.
+    // Beside another lamp it gives only 1e-20 of the light.
     scene.triangles.push_back({{p, p + Vec3(1, 0, 0), p + Vec3(0, 1, 0)}, 1});
     EXPECT_EQ(refusal_of(scene), "");
     const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
     ASSERT_EQ(arrays.emitters.size(), 2u);
     EXPECT_EQ(arrays.emitters[0].probability, 0.0f);
     EXPECT_EQ(arrays.emitters[1].probability, 1.0f);
-    // One without area in the scene emits nothing there either.
+    // A triangle without area in the scene does not emit there either.
     scene.triangles.resize(1);
     scene.triangles.push_back({{p, p + Vec3(1, 0, 0), p + Vec3(0.5, 0, 0)}, 1});
     EXPECT_EQ(refusal_of(scene), "");

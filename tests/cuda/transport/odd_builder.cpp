@@ -25,7 +25,7 @@ OddBuilder::OddBuilder(std::uint32_t seed) : random_(seed)
         origin_ = 4 * size_ * Vec3{any(-1, 1), any(-1, 1), any(-1, 1)};
     }
     if (!exact_ && chance(0.1)) {
-        size_ = any_size(1e-30, 1e30); // products of densities then leave the range of doubles
+        size_ = any_size(1e-30, 1e30); // so that products of densities exceed the range of doubles
         origin_ = any_size(1, 1e4) * size_ * any_direction();
         say("unit of length", size_);
         say("distance from the origin", glm::length(origin_));
@@ -49,7 +49,7 @@ double OddBuilder::any_size(double low, double high)
 Rgb OddBuilder::any_colour(double low, double high)
 {
     Rgb colour{any(low, high), any(low, high), any(low, high)};
-    if (chance(0.05)) colour[pick(3)] = 0; // nothing of it in one channel, or in two
+    if (chance(0.05)) colour[pick(3)] = 0; // black in one channel or in two
     if (chance(0.05)) colour[pick(3)] = 0;
     return colour;
 }
@@ -76,7 +76,7 @@ std::uint32_t OddBuilder::add_material(const scenes::Material& material, const s
 {
     scenes::Material placed = material;
     if (auto* emission = std::get_if<scenes::Emission>(&placed)) emission->radiance *= brightness_;
-    for (scenes::Scene* scene : {&plain_, &full_}) { // numbers are the same in both
+    for (scenes::Scene* scene : {&plain_, &full_}) { // the numbers are the same in both
         scene->materials.push_back(placed);
         scene->material_names.push_back(name);
     }
@@ -157,7 +157,7 @@ void OddBuilder::set_sky(const Rgb& radiance)
 void OddBuilder::look(const Vec3& from, const Vec3& along, double roll, double fov)
 {
     const Vec3 backward = -glm::normalize(turn(along));
-    // Perpendicular to it: exactly along an axis where it is itself so.
+    // A vector at right angles to it; exactly along an axis where it is itself along an axis.
     const Vec3 helper = std::abs(glm::dot(backward, z_)) < 0.9 ? z_ : y_;
     const Vec3 right = glm::normalize(glm::cross(helper, backward));
     const Vec3 up = glm::cross(backward, right);

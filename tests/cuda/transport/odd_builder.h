@@ -1,8 +1,8 @@
 #pragma once
 
-// Puts odd scenes together: numbers that are the same on every platform, a frame in which no coordinate
-// is exact (or every one is), and two scenes at once. The plain one has no additions that change
-// nothing.
+// Builds odd scenes: with numbers that are the same on every platform, in a frame in which no
+// coordinate is exact (or all are). Builds two scenes at once: the full one, and the plain one without
+// the additions that change nothing.
 
 #include "scenes/scene.h"
 
@@ -21,7 +21,8 @@ public:
 
     explicit OddBuilder(std::uint32_t seed);
 
-    // Numbers. The distributions of the standard library differ between platforms; these do not.
+    // Random numbers. The distributions of the standard library differ between platforms; these do
+    // not.
     double any(double low, double high);      // uniform
     double any_size(double low, double high); // uniform logarithm; 0 < low
     bool chance(double probability) { return any(0, 1) < probability; }
@@ -29,34 +30,34 @@ public:
     Rgb any_colour(double low, double high);
     Vec3 any_direction();
 
-    /// Whether the frame is that of the file: then lines along an axis are exactly so.
+    /// Whether the frame is that of the file, so that lines along an axis are exactly along it.
     [[nodiscard]] bool exact() const { return exact_; }
     [[nodiscard]] double size() const { return size_; }
-    /// A factor of all light: what is given below is multiplied by it.
+    /// A factor by which all light below is multiplied.
     [[nodiscard]] double brightness() const { return brightness_; }
     [[nodiscard]] Vec3 place(const Vec3& p) const;
     [[nodiscard]] Vec3 turn(const Vec3& w) const;
 
-    // Everything below takes coordinates of the frame.
+    // All functions below take coordinates of the frame.
     std::uint32_t add_material(const scenes::Material& material, const std::string& name);
     void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t material);
-    /// The parallelogram p + a [0, 1] + b [0, 1], facing a x b.
+    /// The parallelogram p + a [0, 1] + b [0, 1], facing the direction a x b.
     void add_quad(const Vec3& p, const Vec3& a, const Vec3& b, std::uint32_t material);
     /// An axis-aligned box whose faces share their corners to the last bit, without the face of number
     /// `without` (0 ... 5: low x, high x, low y, ...; -1: closed).
     void add_box(const Vec3& low, const Vec3& high, std::uint32_t material, bool outwards,
                  int without = -1);
     void add_sphere(const Vec3& center, double radius, std::uint32_t material);
-    /// Intensities are those for a unit of length of 1.
+    /// Intensities are given for a unit of length of 1.
     void add_point_light(const Vec3& p, const Rgb& intensity);
     void add_spot_light(const Vec3& p, const Vec3& w, const Rgb& intensity, double cos_cutoff,
                         double exponent);
     void add_sun(const Vec3& w, const Rgb& irradiance);
     void set_sky(const Rgb& radiance);
-    /// `roll`: an angle about the line of sight. `fov`: of both axes, since pictures are square.
+    /// `roll`: an angle about the viewing direction. `fov`: for both axes, since pictures are square.
     void look(const Vec3& from, const Vec3& along, double roll, double fov);
 
-    /// The calls until the next switch_to add to one of the two scenes or to both.
+    /// The calls until the next switch_to add to one of the two scenes, or to both.
     enum class To { both, plain, full };
     void switch_to(To to) { to_ = to; }
 
@@ -69,7 +70,7 @@ public:
     [[nodiscard]] const std::string& said() const { return said_; }
 
 private:
-    /// Calls `add` with each scene that is switched to.
+    /// Calls `add` with each scene that is currently selected.
     template <class Add>
     void each(const Add& add)
     {

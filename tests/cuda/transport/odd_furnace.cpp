@@ -1,5 +1,5 @@
-// Furnaces: nothing absorbs, and all light that there is has the radiance L. Whatever stands there, the
-// picture is L; in glass of index n it is n^2 L [Veach 1997, sec. 5.2].
+// Furnaces: nothing absorbs, and all light has the radiance L. With any objects inside, the picture is
+// L; in glass of index n it is n^2 L [Veach 1997, sec. 5.2].
 
 #include "tests/cuda/transport/odd_scenes.h"
 #include "tests/cuda/transport/odd_things.h"
@@ -18,8 +18,8 @@ using scenes::Vec3;
 
 namespace {
 
-/// A closed room of lamps of radiance `sky`, all around the cells, and more lamps that change nothing.
-/// Returns whether light tracing has to do with lamps that nothing sees, or that are far away.
+/// A closed room of lamps of radiance `sky` around all cells, and more lamps that change nothing.
+/// Returns whether light tracing has lamps that are hidden or far away, and therefore much noise.
 bool add_walls_of_light(OddBuilder& builder, const Rgb& sky)
 {
     const std::uint32_t lamp = builder.add_material(scenes::Emission{sky}, "lamp");
@@ -37,7 +37,7 @@ bool add_walls_of_light(OddBuilder& builder, const Rgb& sky)
         const double power = builder.any_size(1, strongest_lamp);
         builder.say("lamp outside, power", power);
         odd = true;
-        const bool flush = builder.chance(0.5); // with the wall, and facing away from it
+        const bool flush = builder.chance(0.5); // in the plane of the wall, and facing away from it
         const Vec3 p = half * Vec3(-1, -1, flush ? 1 : 1.1);
         builder.add_quad(p, half * Vec3(2, 0, 0), half * Vec3(0, 2, 0),
                          builder.add_material(scenes::Emission{power * sky}, "lamp outside"));
@@ -45,8 +45,8 @@ bool add_walls_of_light(OddBuilder& builder, const Rgb& sky)
     return odd;
 }
 
-/// What the radiance of the picture is, in units of that of the sky. `height`: how far the eye is from
-/// the nearest surface, if that is close.
+/// Returns the radiance of the picture, in units of that of the sky. `height`: the distance of the eye
+/// from the nearest surface, if that is close.
 double add_eye(OddBuilder& builder, const Vec3& cell, const Vec3& towards, Matter& matter,
                bool& light_sees, double& height)
 {
@@ -54,7 +54,7 @@ double add_eye(OddBuilder& builder, const Vec3& cell, const Vec3& towards, Matte
     if (fov < 0.1 || fov > 2) {
         builder.say("field of view", fov);
         light_sees = false;
-        matter.cusps = false; // the picture could be of nothing else
+        matter.cusps = false; // the picture could show only them
     }
     const double roll = builder.exact() ? 0 : builder.any(0, 6);
     const Vec3 along =
@@ -98,8 +98,9 @@ OddScene odd_furnace(std::uint32_t seed, bool sky)
     for (int things = 1 + builder.pick(5); things > 0; --things)
         if (add_thing(builder, cells[cell++], 0.45, matter)) odd.light_sees = false;
     if (sky && builder.chance(0.3)) {
-        // Floats place the eye to within 2^-24 of the scene, which must be less than its height: else
-        // what it sees right in front of it is another picture (float_notices.h names such an eye).
+        // Floats place the eye with an error of 2^-24 of the scene, which must be less than its
+        // height; otherwise the picture right in front of it is another one (float_notices.h names
+        // such an eye).
         const double half = std::min(builder.any_size(2, largest_thing), std::max(2.0, 1e6 * height));
         builder.say("ground", half);
         builder.add_quad(Vec3(-half, -half, -1.5), Vec3(2 * half, 0, 0), Vec3(0, 2 * half, 0),

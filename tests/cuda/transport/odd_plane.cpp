@@ -1,6 +1,6 @@
-// An open plane under any lights, seen after one reflection: radiance = albedo / pi * irradiance, for
-// each light in closed form (lit_plane.h). Whatever is below the plane, in it (listed later), or without
-// area, changes nothing.
+// An open plane under any lights, seen after one reflection: radiance = albedo / pi * irradiance, with
+// the irradiance of each light in closed form (lit_plane.h). Objects below the plane, in it (listed
+// later), or without area change nothing.
 
 #include "scenes/bounds.h"
 #include "tests/cuda/transport/lit_plane.h"
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A view of the plane within 0.5 of the origin, from at most 1.2 away.
+/// A view of the plane within 0.5 of the origin, from a distance of at most 1.2.
 PlaneEye any_eye(OddBuilder& builder)
 {
     const double distance = builder.any(0.4, 1.2);
@@ -49,8 +49,8 @@ PlaneEye any_eye(OddBuilder& builder)
     return {at + distance * back, in_frame(camera.right), in_frame(camera.up), -back, span};
 }
 
-/// The plane: two triangles, or many with a corner in the origin, which may be in the middle of the
-/// picture. Returns half its width.
+/// The plane: two triangles, or many with a common corner in the origin, which may be in the middle of
+/// the picture. Returns half the width of the plane.
 double add_plane(OddBuilder& builder, std::uint32_t material, std::uint32_t hidden)
 {
     const double half = builder.chance(0.2) ? builder.any_size(3, largest_thing) : 3;
@@ -81,7 +81,7 @@ double add_plane(OddBuilder& builder, std::uint32_t material, std::uint32_t hidd
     return half;
 }
 
-/// Lamps and things that the plane hides. Returns whether there are strong lamps among them.
+/// Adds lamps and objects that the plane hides. Returns whether there are strong lamps among them.
 bool add_hidden(OddBuilder& builder, double half)
 {
     const bool far = builder.chance(0.2);
@@ -141,9 +141,10 @@ OddScene odd_plane(std::uint32_t seed)
 
     odd.path_sees = !lit.has_narrow_spot();
     odd.light_sees = !strong && half <= 3 && !lit.far_or_low() && eye.from.z > 0.3;
-    // Coordinates err by a few unit roundoffs of the size of the scene, hidden things included. 16 of
-    // them bound the sum for a point of the plane, a light and the edges of a lamp; and a narrow spot is
-    // moved by as much of its width as its light and the plane are.
+    // Coordinates have an error of a few unit roundoffs of the size of the scene, hidden objects
+    // included. 16 of them bound the sum for a point of the plane, a light and the edges of a lamp.
+    // The error of a narrow spot, relative to its width, is the error of its light's position and of
+    // the plane.
     const auto box = scenes::bounds(builder.full()).value();
     const double largest = std::max(3.0, glm::length(box.max - box.min) / builder.size());
     odd.float_tolerance += 16 * 0x1p-24 * lit.condition() * largest + lit.spot_tolerance() * largest;

@@ -1,6 +1,7 @@
-// A room with any lamps. Light adds up: its picture is the sum of those of two groups of lamps, each
-// alone. The groups are rendered without the additions that change nothing: coincident copies, triangles
-// without area, strong lamps that light nothing in the room, lamps in pieces, huge things outside.
+// A room with any lamps. Light is additive: the picture is the sum of those of two groups of lamps,
+// each alone. The pictures of the groups are rendered without the additions that change nothing:
+// coincident copies, triangles without area, strong lamps that light nothing in the room, lamps in
+// pieces, huge objects outside.
 
 #include "tests/cuda/transport/odd_room.h"
 
@@ -43,13 +44,13 @@ void OddRoom::add_eye()
     const Vec3 cell = any_cell();
     const double fov = builder_.any(0.7, 1.6);
     const double roll = builder_.exact() ? 0 : builder_.any(0, 6);
-    if (builder_.chance(0.25)) { // close to the floor, or on it, looking along it
+    if (builder_.chance(0.25)) { // close to the floor or on it, looking along it
         const double gap = builder_.chance(0.3) ? 0 : builder_.any_size(1e-6, 1e-2);
         builder_.say("eye above the floor by", gap);
         const Vec3 from(-1.2, builder_.any(-1, 1), -1.5 + gap);
         std::erase_if(cells_, [](const Vec3& c) { return c.x == -1 && c.z == -1; });
-        // On the floor one sees what is below it too, and there may be a strong lamp: so only upwards,
-        // where the picture's corners are 0.41 from the middle.
+        // An eye on the floor also sees the space below it, where there may be a strong lamp. So it
+        // looks upwards only, with the corners of the picture 0.41 from its middle.
         if (gap == 0)
             builder_.look(from, Vec3(1, 0, 0.5), roll, 0.6);
         else
@@ -62,7 +63,7 @@ void OddRoom::add_eye()
     builder_.look(cell, along, roll, fov);
 }
 
-/// What changes nothing.
+/// Adds objects that change nothing.
 void OddRoom::add_additions()
 {
     builder_.switch_to(To::full);
@@ -84,7 +85,7 @@ void OddRoom::add_additions()
             builder_.add_material(scenes::Emission{Rgb(power / 10)}, "lamp outside");
         const double gap = builder_.chance(0.5) ? 0 : builder_.any_size(1e-5, 1);
         builder_.say("below the floor by", gap);
-        // Faces away from the floor, or, from a little below, towards it.
+        // Faces away from the floor, or, from slightly below, towards it.
         const Vec3 p(-1, -1, -1.5 - gap);
         if (gap == 0 || builder_.chance(0.5))
             builder_.add_quad(p, Vec3(0, 2, 0), Vec3(2, 0, 0), lamp);
@@ -117,7 +118,7 @@ void OddRoom::add_everything()
     for (int things = builder_.pick(4); things > 0 && cells_.size() > 1; --things) {
         Vec3 cell = any_cell();
         const bool stands =
-            cell.z == -1 && builder_.chance(0.5); // on the floor: its lowest point is there
+            cell.z == -1 && builder_.chance(0.5); // on the floor, which its lowest point touches
         if (stands) builder_.say("standing");
         cell.z -= stands ? 0.275 : 0;
         add_thing(builder_, cell, 0.45, matter_);
@@ -129,7 +130,8 @@ void OddRoom::add_everything()
     add_additions();
 }
 
-/// The plain scene with the lamps of one group alone; the others are there, and dark.
+/// The plain scene in which only the lamps of one group are lit; those of the other are there, but
+/// dark.
 scenes::Scene OddRoom::part(bool second) const
 {
     scenes::Scene scene = builder_.plain();

@@ -10,7 +10,7 @@ using scenes::Rgb;
 using scenes::Vec3;
 using To = OddBuilder::To;
 
-/// Of a lamp of that area, in the group that is being added; powers differ by a factor of 30 at most.
+/// The material of a lamp of that area in the current group; powers differ by a factor of at most 30.
 std::uint32_t OddRoom::lamp_material(double area)
 {
     const double power = builder_.any_size(0.3, 10);
@@ -20,15 +20,17 @@ std::uint32_t OddRoom::lamp_material(double area)
     return lamp;
 }
 
-/// Path tracing finds what the eye sees directly by chance alone: hardly ever if it is small. In floats
-/// its edges err by a unit roundoff of the coordinates of its corners, up to 2, at each end.
+/// Path tracing finds a directly seen lamp only by chance: hardly ever if the lamp is small. In floats
+/// the edges of the lamp have an error of a unit roundoff of the coordinates of its corners, up to 2,
+/// at each end.
 void OddRoom::see_small_lamp(double width)
 {
     odd_.path_sees = false;
     odd_.float_tolerance += 16 * 0x1p-24 / width;
 }
 
-/// One that hangs in its cell and faces down: one alone, two back to back, or one that covers another.
+/// A lamp that hangs in its cell and faces down: one alone, two back to back, or one that covers
+/// another.
 void OddRoom::add_quad_lamp()
 {
     const Vec3 cell = any_cell();
@@ -59,7 +61,7 @@ void OddRoom::add_quad_lamp()
     }
 }
 
-/// Flush with the ceiling, or near it.
+/// A lamp in the plane of the ceiling, or near it.
 void OddRoom::add_ceiling_lamp()
 {
     if (open_) return add_quad_lamp();
@@ -86,7 +88,7 @@ void OddRoom::add_body_lamp()
     if (in_glass) builder_.add_sphere(cell, 0.4, add_glass(builder_, builder_.any(1.05, 1.3)));
 }
 
-/// Those that only next events and light walks find: not where there are mirrors and glass.
+/// Lights that only next event and light walks find; only in scenes without mirrors and glass.
 void OddRoom::add_small_light()
 {
     const Vec3 cell = any_cell();

@@ -1,27 +1,28 @@
-// Odd scenes from seeds: all integrators of both wings against a truth that comes from none of them, and
-// against each other. A failure names its seed: PLUMBLINE_ODD_SEED=n renders that scene alone, and
-// prints what each integrator found.
+// Odd scenes from seeds: all integrators of both wings are compared with a truth that comes from none
+// of them, and with each other. A failure names its seed: PLUMBLINE_ODD_SEED=n renders only that
+// scene, and prints the result of each integrator.
 //
-// The truth is a number that is known exactly (furnaces; direct light on a plane), or, for rooms, the
+// The truth is a number that is known exactly (furnaces; direct light on a plane). For rooms it is the
 // sum of two pictures by the reference, each with half of the lamps and without the additions that
-// change nothing. Whichever lamp is preferred or forgotten beside others is not in its own picture.
+// change nothing. So a lamp that is preferred or neglected beside others is not so in its own picture.
 //
 // A comparison is a t test on the means of whole pictures over 32 independent batches. The bound of 7
-// standard errors with 31 degrees of freedom is passed by chance in 10^7 times once, if the means of
-// batches are distributed normally; a batch is 256 samples. A scene is compared 9 times at most: 20,000
-// scenes fail by chance with a probability of 2%.
+// standard errors with 31 degrees of freedom is exceeded by chance once in 10^7 times, if the means of
+// batches are normally distributed; a batch is 256 samples. A scene is compared at most 9 times:
+// 20,000 scenes fail by chance with a probability of 2%.
 //
-// Light that was never found is not in a standard error either. That of path tracing and bidirectional
-// path tracing has to be below a tenth of the truth; with the bound above this holds them to the truth
-// within a factor, whatever they did not find. Light tracing is noisy where little is seen of much: it
-// is compared with the truth if its standard error is below a tenth of its own mean, and its wings in
-// any case. Where the first samples are too few for that, there are 16 times as many, and these alone
-// are judged.
+// Light that was never found is missing in the standard error too. The standard error of path tracing
+// and of bidirectional path tracing must be below a tenth of the truth; with the bound above, their
+// means are then correct within a factor, even if they missed light. Light tracing is noisy where only
+// a small part of the lit surfaces is in view: it is compared with the truth only if its standard
+// error is below a tenth of its own mean; the two wings are compared in any case. If the first samples
+// are too few for these limits, 16 times as many are taken, and only these are tested.
 //
-// Where two strategies share paths, one of them may find them so seldom that it found none. One such
-// event is worth about as much as a sample of the other, since its weight is as small as its density: by
-// the balance heuristic no strategy adds more than f / (p1 + p2). 16 expected events are all missed with
-// a probability of e^-16 = 1e-7. So the truth has a tolerance of 16 / (samples of the picture), 0.2%.
+// Where two strategies share paths, one of them may sample them so seldom that it found none. One such
+// event is worth about as much as a sample of the other, since its weight is as small as its density:
+// with the balance heuristic no strategy adds more than f / (p1 + p2). With 16 expected events, all
+// are missed with a probability of e^-16 = 1e-7. So the truth has a tolerance of 16 / (samples of the
+// picture), 0.2%.
 
 #include "tests/cuda/transport/batch_means.h"
 #include "tests/cuda/transport/odd_scenes.h"
@@ -46,9 +47,9 @@ using cuda_test::OddScene;
 
 constexpr double bound = 7;
 constexpr double largest_error = 0.1; // relative
-constexpr std::uint32_t more = 16;    // times the samples, where the error is larger
+constexpr std::uint32_t more = 16;    // factor for the samples where the error is larger
 
-constexpr std::uint32_t groups = 20; // of scenes, all of one kind: so many tests
+constexpr std::uint32_t groups = 20; // of scenes, all of one kind; the number of tests
 constexpr cuda_test::Samples samples{.size = cuda_test::odd_size, .batches = 32, .batch_size = 4};
 
 /// One of the three integrators, in both wings.
@@ -56,7 +57,7 @@ struct Both {
     const char* name;
     ref::Integrator ref;
     fast::Integrator host;
-    bool sure; // finds everything with a variance that is not large
+    bool sure; // finds all light with a variance that is not large
 };
 
 struct Truth {
@@ -108,7 +109,7 @@ void expect_truth(const Means& means, const Truth& truth, double tolerance, cons
         << what << ": " << average(means) << ", truth " << truth.mean << ", standard error " << error;
 }
 
-/// From the same random numbers: the differences are those of paths that go another way in floats.
+/// From the same random numbers: differences come only from paths that rounding changes.
 void expect_equal_wings(const Means& host, const Means& ref, double tolerance, const std::string& what)
 {
     Means differences;
@@ -118,7 +119,7 @@ void expect_equal_wings(const Means& host, const Means& ref, double tolerance, c
         << what << ", wings: " << average(host) << ", " << average(ref);
 }
 
-/// Compares both wings with the truth and with each other. Uses `number` and the next as seeds.
+/// Compares both wings with the truth and with each other. Uses the seeds `number` and `number` + 1.
 void expect_right(const OddScene& odd, const Both& integrator, const Truth& truth, std::uint64_t number)
 {
     const std::string name = integrator.name;
@@ -136,9 +137,9 @@ void expect_right(const OddScene& odd, const Both& integrator, const Truth& trut
         cuda_test::means_by_host(odd.scene, integrator.host, odd.max_edges, number, times(factor));
     expect_equal_wings(host, ref, odd.float_tolerance, name);
     if (integrator.sure) {
-        EXPECT_TRUE(enough) << name << " by ref says nothing: " << average(ref) << ", standard error "
+        EXPECT_TRUE(enough) << name << " by ref is too noisy: " << average(ref) << ", standard error "
                             << error_of(ref) << ", truth " << truth.mean;
-        EXPECT_LE(error_of(host), largest_error * truth.mean) << name << " by host says nothing";
+        EXPECT_LE(error_of(host), largest_error * truth.mean) << name << " by host is too noisy";
     } else if (!enough) {
         return;
     }
@@ -178,7 +179,7 @@ TEST_P(OddScenes, AreRenderedRight)
     for (std::uint32_t seed = group; seed < scenes; seed += groups) expect_right(seed);
 }
 
-static_assert(groups % cuda_test::odd_kinds == 0); // so that all of a group are of one kind
+static_assert(groups % cuda_test::odd_kinds == 0); // so that all scenes of a group are of one kind
 
 INSTANTIATE_TEST_SUITE_P(Seeds, OddScenes, testing::Range(0u, groups),
                          [](const testing::TestParamInfo<std::uint32_t>& group) {

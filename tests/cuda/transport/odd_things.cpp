@@ -76,7 +76,7 @@ bool add_box_without_lid(OddBuilder& builder, const Vec3& c, double r, const Mat
     return false;
 }
 
-/// Tens of copies, in turn of two materials: the first is seen.
+/// Many copies, with two materials in turn: the first one is visible.
 bool add_copies(OddBuilder& builder, const Vec3& c, double r, const Matter& matter)
 {
     const int copies = 2 + builder.pick(40);
@@ -91,7 +91,8 @@ bool add_copies(OddBuilder& builder, const Vec3& c, double r, const Matter& matt
     return false;
 }
 
-/// A disc of triangles, all with one corner in the middle: of 3 to 60, or slivers of an angle of 1e-6.
+/// A disc of triangles that share a corner in the middle: 3 to 60 of them, or slivers with an angle of
+/// 1e-6.
 bool add_fan(OddBuilder& builder, const Vec3& c, double r, const Matter& matter)
 {
     const bool slivers = builder.chance(0.5);
@@ -117,8 +118,8 @@ bool add_glass_body(OddBuilder& builder, const Vec3& c, double r, const Matter& 
     return true;
 }
 
-/// What is in the middle is so small that no light that comes from there is reflected totally: else
-/// paths would be very long.
+/// The object in the middle is so small that no light from it is totally reflected; otherwise paths
+/// would be very long.
 bool add_nested_glass(OddBuilder& builder, const Vec3& c, double r, const Matter& matter)
 {
     if (!matter.specular) return add_stack(builder, c, r, matter);
@@ -145,7 +146,7 @@ bool add_nested_glass(OddBuilder& builder, const Vec3& c, double r, const Matter
 
 Matter add_matter(OddBuilder& builder, bool white, bool specular)
 {
-    const auto colour = [&] { // in every channel: so that something is seen of every lamp
+    const auto colour = [&] { // in every channel, so that every lamp is visible
         return white ? Rgb(1.0) : glm::max(builder.any_colour(0.2, 0.8), Rgb(0.1));
     };
     Matter matter{};

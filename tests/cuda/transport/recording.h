@@ -1,6 +1,6 @@
 #pragma once
 
-// A sample of the fast path, contribution by contribution.
+// Records the contributions of one sample of the fast path.
 
 #include "cuda/launch/launch_samples.h"
 #include "cuda/parallel/threaded_executor.h"
@@ -17,7 +17,7 @@ struct Recorded {
     friend bool operator==(const Recorded&, const Recorded&) = default;
 };
 
-/// A sink that keeps everything.
+/// A sink that stores all contributions.
 class RecordingSink {
 public:
     explicit RecordingSink(std::uint32_t pixel) : pixel_(pixel) {}
@@ -44,7 +44,7 @@ public:
     {}
     [[nodiscard]] fast::Needs needs() const { return arrays_.needs; }
 
-    /// By the kernel that is compiled for `needs`, which must be no less than needs().
+    /// Computed by the kernel that is compiled for `needs`, which must include needs().
     [[nodiscard]] std::vector<Recorded> sample(fast::Needs needs, fast::Integrator integrator,
                                                const fast::PathOptions& options,
                                                const fast::SampleId& id) const

@@ -1,5 +1,5 @@
-// From samples to batches: nothing is lost, nothing counted twice, and nothing depends on how the work
-// is divided.
+// From samples to batches: nothing is lost or counted twice, and the result does not depend on the
+// division into launches.
 
 #include "cuda/launch/batch_renderer.h"
 #include "cuda/launch/host_kernels.h"
@@ -37,7 +37,7 @@ images::RenderOptions short_paths(Integrator integrator)
     return options;
 }
 
-/// On the host, with launches of just `launch` samples.
+/// A batch rendered on the host, with launches of exactly `launch` samples.
 images::Image batch_of(const scenes::Scene& scene, const images::RenderOptions& options,
                        unsigned threads, std::uint32_t launch, std::uint64_t number)
 {
@@ -59,13 +59,13 @@ TEST(LaunchSize, GrowsAndShrinksBetweenItsLimits)
     EXPECT_EQ(size.get(), 256u);
     for (int i = 0; i < 5; ++i) size.took(milliseconds(500));
     EXPECT_EQ(size.get(), 64u);
-    // What does not fit in memory at once is done in turn, a single sample at the least.
+    // If the memory is too small, samples are computed one after the other, at least one at a time.
     EXPECT_EQ(fast::LaunchSize({64, 256, 1000}, 100).most(), 8u);
     EXPECT_EQ(fast::LaunchSize({64, 256, 1000}, 100).get(), 8u);
     EXPECT_EQ(fast::LaunchSize({64, 256, 1000}, 5000).most(), 1u);
 }
 
-/// Counts what is launched.
+/// An executor that counts the indices launched.
 struct CountingExecutor {
     std::vector<std::uint32_t> counts;
     template <fast::Kernel K>
@@ -76,7 +76,7 @@ struct CountingExecutor {
     }
 };
 
-// With a small number for what an index can count.
+// With a small limit in place of the range of an index.
 TEST(Clear, ReachesEveryElementOnceHoweverManyLaunchesItTakes)
 {
     using Counts = std::vector<std::uint32_t>;
@@ -114,8 +114,8 @@ TEST(BatchRenderer, RefusesWhatItsNumbersCannotCount)
         return refusal_of([&] { (void)fast::host_renderer(our_scene("cornell_glass"), w, h, {}, 1); });
     };
     const std::string expected = " pixels: expected 1 to 4294967295 pixels";
-    EXPECT_EQ(size(65536, 65536), "a picture of 65536x65536" + expected); // 2^32 would be none at all
-    EXPECT_EQ(size(65537, 65536), "a picture of 65537x65536" + expected); // and this 65536
+    EXPECT_EQ(size(65536, 65536), "a picture of 65536x65536" + expected); // 2^32 would wrap around to 0
+    EXPECT_EQ(size(65537, 65536), "a picture of 65537x65536" + expected); // and this to 65536
     EXPECT_EQ(size(0, 5), "a picture of 0x5" + expected);
     EXPECT_EQ(size(-2, -3), "a picture of -2x-3" + expected);
 
@@ -143,7 +143,7 @@ RC_GTEST_PROP(BatchRenderer, DeterministicBitsDependOnNothingButTheSamples, ())
     RC_ASSERT(batch_of(scene, options, threads, launch, number) == one);
 }
 
-/// The batch from the contributions of its samples, added up in double.
+/// The batch computed from the contributions of its samples, summed in double.
 images::Image sum_of_samples(const scenes::Scene& scene, const images::RenderOptions& options,
                              std::uint64_t number)
 {
@@ -169,9 +169,9 @@ TEST(BatchRenderer, AddsUpAllContributionsOfAllSamples)
         const auto options = short_paths(integrator);
         const images::Image expected = sum_of_samples(scene, options, 3);
         const images::Image batch = batch_of(scene, options, 2, 50, 3);
-        // A pixel is a sum of terms >= 0: each rounding errs by at most 2^-24 of the sum. A sample adds
-        // fewer than 32 terms to its own pixel, four samples are added in turn, and fewer than 1000
-        // splats fall on a pixel of so small a picture.
+        // A pixel is a sum of terms >= 0: each rounding has an error of at most 2^-24 of the sum. A
+        // sample adds fewer than 32 terms to its own pixel, four samples are added in turn, and fewer
+        // than 1000 splats fall on a pixel of so small a picture.
         const double bound = 0x1p-24 * (32 + 4 + 1000);
         for (std::size_t i = 0; i < expected.pixels.size(); ++i)
             for (int channel = 0; channel < 3; ++channel)
@@ -278,7 +278,7 @@ TEST(BatchRenderer, ASceneWithoutLightIsBlack)
     }
 }
 
-// What a kernel leaves out changes no bit of what it computes.
+// The parts that a kernel leaves out change no bit of its result.
 TEST(Needs, LeavingOutWhatASceneDoesNotHaveChangesNothing)
 {
     bool seen[3][2] = {};
@@ -311,8 +311,8 @@ TEST_F(RendererOnDevice, GivesTheHostsPicture)
         const images::Image host = batch_of(scene, options, 1, 512, 0);
         const images::Image device =
             fast::device_renderer(scene, width, height, options)->render_batch(0, {})->mean;
-        // Sine, cosine and power differ in their last bits between the two: now and then a path takes
-        // another turn, and a pixel of four samples is another. Most are the same to rounding.
+        // Sine, cosine and power differ in their last bits between the two. Sometimes a path changes
+        // because of this, and then a pixel of four samples changes. Most pixels agree up to rounding.
         std::size_t different = 0;
         for (std::size_t i = 0; i < host.pixels.size(); ++i)
             if (glm::length(host.pixels[i] - device.pixels[i]) > 1e-3 * glm::length(host.pixels[i]))

@@ -1,5 +1,5 @@
-// Weights by running sums against the sum over all strategies, term by term, of the same densities: no
-// geometry, so that rounding is all that may differ.
+// Weights by running sums compared with the sum over all strategies, term by term, from the same
+// densities. There is no geometry, so that only rounding may differ.
 
 #include "cuda/transport/mis_weight.h"
 
@@ -16,32 +16,32 @@ namespace {
 
 using fast::Heuristic;
 
-/// One walk from its end of a path: v_0 ... v_n, where v_n is joined to the last of the other walk. All
+/// One walk of a path: v_0 ... v_n, where v_n is joined to the last vertex of the other walk. All
 /// densities of the walk itself are 1, so that those of the other walk are the quotients.
 struct HalfPath {
-    /// What the walk meets at v_i. Of v_0 only `joinable` and `geometry_over_pdf` count, of v_n all but
-    /// the latter.
+    /// The data at v_i. Of v_0 only `joinable` and `geometry_over_pdf` are used, of v_n all but the
+    /// latter.
     struct Step {
         bool joinable;             // c_i: whether v_{i-1} and v_i can be joined; c_0: whether the other
-                                   // walk can make all of the path
-        float pdf_rev_solid_angle; // with which the other walk would go on from v_i to v_{i-1}, but for
+                                   // walk can make the whole path
+        float pdf_rev_solid_angle; // with which the other walk would go on from v_i to v_{i-1}, without
                                    // survival
-        float survival;            // at v_i, once roulette plays
-        float geometry_over_pdf;   // turns pdf_rev_solid_angle at v_{i+1} into the quotient of the
+        float survival;            // at v_i, where roulette applies
+        float geometry_over_pdf;   // converts pdf_rev_solid_angle at v_{i+1} to the quotient of the
                                    // densities of v_i
     };
     std::vector<Step> steps;
-    float last; // the density of v_n for the other walk
+    float last; // the density of v_n in the other walk
     [[nodiscard]] int vertices() const { return static_cast<int>(steps.size()); }
 };
 
-/// Of squared quotients twelve are multiplied: 10^24 at most, which floats hold and no cap cuts.
+/// Twelve squared quotients are multiplied: at most 10^24, which floats hold and no limit changes.
 float any_density()
 {
     return static_cast<float>(std::pow(10.0, *transport_test::any_unit() - 0.5));
 }
 
-/// With 2 ... 12 vertices.
+/// A walk with 2 ... 12 vertices.
 HalfPath any_half()
 {
     HalfPath half{{}, any_density()};
@@ -52,23 +52,23 @@ HalfPath any_half()
     return half;
 }
 
-/// The sum over the strategies in which the other walk, which now has `other_vertices`, makes vertices
-/// of this one too: prod_i (pdf_rev of v_i / pdf_fwd of v_i) over those vertices, each quotient to the
-/// exponent of the heuristic.
+/// The sum over the strategies in which the other walk, which now has `other_vertices`, samples
+/// vertices of this one too: prod_i (pdf_rev of v_i / pdf_fwd of v_i) over those vertices, each
+/// quotient to the exponent of the heuristic.
 long double literal_sum(const HalfPath& half, int other_vertices, Heuristic heuristic)
 {
     const int n = half.vertices() - 1;
     const long double exponent = heuristic == Heuristic::power ? 2 : 1;
     long double sum = 0;
     long double product = 1;
-    for (int i = n; i >= 0; --i) { // the other walk makes v_i too; v_{i-1} is the last of this walk
+    for (int i = n; i >= 0; --i) { // the other walk samples v_i too; v_{i-1} is the last of this walk
         long double quotient = half.last;
         if (i < n) {
             const HalfPath::Step& next = half.steps[static_cast<std::size_t>(i) + 1];
             quotient = static_cast<long double>(next.pdf_rev_solid_angle) *
                        half.steps[static_cast<std::size_t>(i)].geometry_over_pdf;
-            // The other walk has other_vertices + n - i vertices when it comes to v_i: it bounced at
-            // each but its first, and the last time, at v_{i+1}, was bounce other_vertices + n - i - 1.
+            // The other walk has other_vertices + n - i vertices when it reaches v_i. It bounced at
+            // each but its first; the last bounce, at v_{i+1}, was number other_vertices + n - i - 1.
             if (other_vertices + n - i - 1 > 4) quotient *= next.survival;
         }
         product *= std::pow(quotient, exponent);
@@ -77,7 +77,7 @@ long double literal_sum(const HalfPath& half, int other_vertices, Heuristic heur
     return sum;
 }
 
-/// v_n, to be joined to a walk of `other_vertices`, by the sums that the walk carried to it.
+/// v_n, to be joined to a walk of `other_vertices`, with the running sums of the walk.
 fast::SubpathEnd end_of(const HalfPath& half, int other_vertices, Heuristic heuristic)
 {
     const auto& v = half.steps;
@@ -90,9 +90,10 @@ fast::SubpathEnd end_of(const HalfPath& half, int other_vertices, Heuristic heur
                          other_vertices, heuristic)};
 }
 
-/// Roundings per level of the nested sum: 1 in the quotient, doubled and 1 more when squared; survival's
-/// square 1, its product 1; the product with the inner sum 1, the sum 1: 7. The last quotient has 2, and
-/// the weight 3. All terms are positive, so relative errors add up and do not grow.
+/// Roundings per level of the nested sum: 1 in the quotient, doubled and 1 more when squared; 1 for
+/// the square of the survival and 1 for its product; 1 for the product with the inner sum, and 1 for
+/// the sum: 7. The last quotient has 2, and the weight 3. All terms are positive, so relative errors
+/// add up and do not grow.
 double bound(int vertices)
 {
     return (7.0 * vertices + 5.0) * 0x1p-24;
@@ -121,13 +122,14 @@ TEST(RunningSums, StayFinite)
         fast::RunningSums sums(true, 1e25f);
         for (int i = 0; i < 12; ++i) sums.advance(true, 1e25f, 1.0f, 1e25f, heuristic);
         EXPECT_EQ(sums.bracket(true, 1e25f, 1.0f, 2, heuristic), fast::largest_sum);
-        // So a quotient of 0, of what cannot be hit, leaves 0 and not NaN.
+        // So a quotient of 0, for a vertex that cannot be hit, gives 0 and not NaN.
         sums.advance(true, 0.0f, 1.0f, 1.0f, heuristic);
         EXPECT_EQ(sums.bracket(false, 0.0f, 1.0f, 2, heuristic), 0.0f);
     }
 }
 
-/// Whether `weight` is the share of a strategy with the sums S and T, of halves of at most `vertices`.
+/// Whether `weight` is the weight of a strategy with the sums S and T, for walks of at most
+/// `vertices`.
 bool is_share(float weight, long double S, long double T, int vertices)
 {
     const long double expected = 1 / (1 + S + T);
@@ -135,7 +137,7 @@ bool is_share(float weight, long double S, long double T, int vertices)
     return std::abs(weight - expected) <= bound(vertices) * expected;
 }
 
-/// Both halves of a path, each with the number of vertices of the other.
+/// Both walks of a path, each with the number of vertices of the other.
 RC_GTEST_PROP(RunningSums, GiveEveryStrategyItsShare, ())
 {
     const HalfPath y = any_half();
@@ -165,7 +167,7 @@ RC_GTEST_PROP(RunningSums, GiveStrategiesAtTheEndsOfAPathTheirShare, ())
         is_share(next_event_weight(heuristic, 1.0f, pdf_rev, joined_to_one), S, one, v.vertices()));
 }
 
-/// Path tracing's two strategies share every path that both can make.
+/// The weights of path tracing's two strategies add up to 1 for every path that both can make.
 RC_GTEST_PROP(RunningSums, BalanceTheTwoStrategiesOfPathTracing, ())
 {
     const float hit = any_density();

@@ -1,4 +1,4 @@
-// Splats from many threads at once: none is lost, whoever comes between.
+// Splats from many threads at once: none is lost, in any schedule.
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/transport/film.h"
@@ -14,7 +14,7 @@
 
 namespace {
 
-constexpr std::size_t pixels = 3; // few: threads meet often
+constexpr std::size_t pixels = 3; // few, so that threads collide often
 
 /// Kernel over splats.
 struct AddSplats {
@@ -51,7 +51,8 @@ double expected(const std::vector<float>& values, std::size_t pixel)
     return sum;
 }
 
-/// Whether floats hold the sums: every addition of terms >= 0 errs by at most 2^-24 of the sum.
+/// Whether the sums are correct for floats: every addition of terms >= 0 has an error of at most 2^-24
+/// of the sum.
 bool hold(const std::vector<fast::Rgb>& sums, const std::vector<float>& values)
 {
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
@@ -92,7 +93,7 @@ RC_GTEST_PROP(Splats, AreAllThereFromRealThreads, ())
     expect_all_there(executor, some_values(2, *rc::gen::inRange<std::size_t>(0, 3000)));
 }
 
-// Or the silence of the test above would be worth nothing.
+// Otherwise the test above would prove nothing.
 TEST(Splats, ThatAreTornAreFound)
 {
     const std::vector<float> values = some_values(3, 32);

@@ -1,31 +1,31 @@
-// Spot lights from wide to very narrow, and from constant to very peaked, against a closed form.
+// Spot lights from wide to very narrow, and from constant to very peaked, compared with a closed form.
 //
-// A spot at height h straight over a Lambertian plane of albedo rho, and a pinhole on the same axis at
-// height H, which looks down. A point of the plane at angle theta from the axis, seen from the spot, has
-// the radiance rho/pi I cos(theta)^(n+3) / h^2, and lies at r = h tan(theta) from the axis, on the film
-// at r/H. With A the area of the film at distance 1, which holds all that is lit, and t = cos(theta),
+// A spot is at height h straight over a Lambertian plane of albedo rho, and a pinhole on the same
+// axis, at height H, looks down. A point of the plane that the spot sees at angle theta from the axis
+// has the radiance rho/pi I cos(theta)^(n+3) / h^2. It lies at r = h tan(theta) from the axis, on the
+// film at r/H. With A the area of the film at distance 1, which contains everything that is lit, and t
+// = cos(theta),
 //
 //   mean of the picture = rho/pi I / (h^2 H^2 A) int cos^(n+3) 2 pi r dr
 //                       = rho/pi I / (H^2 A) 2 pi int_c^1 t^n dt = rho I Omega / (pi H^2 A),
 //
-// Omega being the integral of t^n over the cone, 2 pi (1 - c^(n+1)) / (n+1). I is such that the mean
-// is 1.
+// where Omega is the integral of t^n over the cone, 2 pi (1 - c^(n+1)) / (n+1). I is chosen so that
+// the mean is 1.
 //
-// How far the fast path may be from 1, besides noise:
-// 1. Fewer than 100 roundings of factors: 100 u = 6e-6, u = 2^-24. The steps of uniform numbers of 24
-//    bits, which draw directions of a peaked lobe: 1.3e-5 (versine_cutoff in scene_arrays.cpp). Together
-//    2e-5 is allowed.
-// 2. Directions are rounded, to a grid of about u. Which grid points are in the cone, whose half angle
-// is
-//    a, is decided for each by itself, so that errors add up only along the rim: a circle of radius a/u
-//    grid steps holds as many points as its area says to within about (a/u)^(2/3) [van der Corput].
-//    Relatively (u/a)^(4/3); 2 (u/a)^(4/3) is allowed. The directions of the film are rounded alike.
-//    For a peaked lobe its width 1/sqrt(n) is as good as a.
+// The difference between the fast path and 1 may be, besides noise:
+// 1. Fewer than 100 roundings of factors: 100 u = 6e-6, u = 2^-24. The uniform numbers of 24 bits,
+//    from which the directions of a peaked lobe are sampled: 1.3e-5 (versine_cutoff in
+//    scene_arrays.cpp). Together 2e-5 is allowed.
+// 2. Directions are rounded to a grid of about u. Each grid point is in the cone, of half angle a, or
+//    not; so errors add up only along the rim. A circle of radius a/u grid steps holds as many points
+//    as its area, up to about (a/u)^(2/3) [van der Corput]. The relative error is (u/a)^(4/3); 2
+//    (u/a)^(4/3) is allowed. The directions of the film are rounded in the same way. For a peaked
+//    lobe, its width 1/sqrt(n) takes the place of a.
 // 3. The lengths of unit vectors are rounded: (8 u / a)^2 of the versine (emitter.h).
-// 4. The rounded axis is tilted by up to 1.5 u: the lit disc moves by as much, and nothing else changes.
+// 4. The rounded axis is tilted by up to 1.5 u: the lit disc moves by as much, with no other effect.
 //
 // A comparison is a t test over independent batches. 7 standard errors with 31 degrees of freedom are
-// passed by chance once in 10^7 times.
+// exceeded by chance once in 10^7 times.
 
 #include "cuda/launch/renderer.h"
 #include "ref/transport/path_tracer.h"
@@ -56,7 +56,8 @@ struct Spot {
     [[nodiscard]] double half_angle() const { return degrees * pi / 360; }
     /// 1 - cos of the half angle, without cancellation.
     [[nodiscard]] double cutoff() const { return 2 * std::pow(std::sin(half_angle() / 2), 2); }
-    /// Of the half angle or, if that is less, of the lobe: beyond it lies e^-12 of the power.
+    /// 1 - cos of the half angle or, if that is less, of the lobe: only e^-12 of the power is beyond
+    /// it.
     [[nodiscard]] double edge() const { return std::min(cutoff(), -std::expm1(-12 / (exponent + 1))); }
     [[nodiscard]] double solid_angle() const
     {
@@ -69,7 +70,7 @@ struct Spot {
     }
 };
 
-/// Axes that no coordinate axis is near to.
+/// The axes are not close to any coordinate axis.
 scenes::Scene spot_over_plane(const Spot& spot)
 {
     const Vec3 normal = glm::normalize(Vec3(0.36, -0.48, 0.8));
@@ -118,7 +119,7 @@ public:
         sum_ += mean - 1;
         squares_ += (mean - 1) * (mean - 1);
     }
-    /// The mean of all pictures less 1.
+    /// The mean of all pictures, minus 1.
     [[nodiscard]] double off() const { return sum_ / count_; }
     [[nodiscard]] double standard_error() const
     {
@@ -131,7 +132,7 @@ private:
     double squares_ = 0;
 };
 
-/// On the fast path.
+/// Renders pictures on the fast path.
 Sums pictures(const scenes::Scene& scene, fast::Integrator integrator, std::uint32_t batch_size)
 {
     images::RenderOptions options;
@@ -162,7 +163,7 @@ TEST_P(SpotLights, ShedThePowerOfTheirConeInEveryIntegrator)
     const scenes::Scene scene = spot_over_plane(spot);
     using enum fast::Integrator;
     for (const auto integrator : {path, bdpt, light}) {
-        // Light walks spread over the whole cone: many miss a lobe that is much narrower.
+        // Light walks are spread over the whole cone: many miss a lobe that is much narrower.
         const bool hard = integrator != path && spot.exponent > 0;
         const Sums sums = pictures(scene, integrator, hard ? 64 : 8);
         std::ostringstream found;
@@ -170,7 +171,7 @@ TEST_P(SpotLights, ShedThePowerOfTheirConeInEveryIntegrator)
               << sums.standard_error();
         RecordProperty(name_of(integrator), found.str());
         EXPECT_LT(std::abs(sums.off()), bound * sums.standard_error() + spot.tolerance()) << found.str();
-        EXPECT_LT(sums.standard_error(), hard ? 0.015 : 0.002) << found.str(); // else it says little
+        EXPECT_LT(sums.standard_error(), hard ? 0.015 : 0.002) << found.str(); // else a weak test
     }
 }
 
@@ -181,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(FromWideToNarrow, SpotLights,
                                          Spot{1, 1e7}, Spot{0.6, 1e6}, Spot{0.02, 1e7},
                                          Spot{0.01, 1e9}));
 
-/// The closed form itself, by the other wing.
+/// The closed form itself, tested with the reference.
 TEST(SpotLight, OfTheReferenceShedTheSame)
 {
     for (const Spot& spot : {Spot{90, 8}, Spot{0.3, 0}, Spot{0.01, 0}, Spot{0.6, 1e6}}) {
@@ -206,7 +207,7 @@ std::string refusal_of(const Spot& spot)
     return "";
 }
 
-// What floats cannot hold is refused in words, and never black.
+// A spot that floats cannot represent is rejected with a message, and never renders black.
 TEST(SpotLight, TooNarrowForFloatsAreRefused)
 {
     EXPECT_EQ(refusal_of({0.00176, 0}), "");

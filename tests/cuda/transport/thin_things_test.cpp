@@ -1,5 +1,6 @@
-// What lies closer together than 2^-20 of the scene, on the fast path: its clearance follows from what a
-// ray leaves, and not from the size of the scene. Against the reference, from the same random numbers.
+// Surfaces closer together than 2^-20 of the scene, on the fast path: the clearance depends on the
+// surface that a ray leaves, not on the size of the scene. Compared with the reference, from the same
+// random numbers.
 
 #include "cuda/launch/renderer.h"
 #include "ref/transport/bdpt.h"
@@ -45,7 +46,7 @@ Vec3 at(double a, double b, double c)
     return a * x + b * y + c * z;
 }
 
-/// A matte room with a lamp under its ceiling, and over its floor a pane of glass, turned so that no
+/// A matte room with a lamp under its ceiling and a pane of glass over its floor, turned so that no
 /// coordinate is exact.
 scenes::Scene room_with_pane(double thickness)
 {
@@ -54,7 +55,7 @@ scenes::Scene room_with_pane(double thickness)
     scene.materials = {scenes::Lambertian{Rgb(0.6, 0.54, 0.48)}, scenes::Emission{Rgb(5.0, 4.0, 3.0)},
                        scenes::Glass{Rgb(0.9), Rgb(0.9), 1.5}};
     scene.material_names = {"wall", "lamp", "pane"};
-    // Facing inwards: left-handed.
+    // Facing inwards, because left-handed.
     add_box(scene, at(-1, -1, -1), 2.0 * y, 2.0 * x, 2.0 * z, 0);
     add_quad(scene, at(-0.4, 0.4, 0.9), 0.8 * x, -0.8 * y, 1);
     add_box(scene, at(-0.9, -0.9, -0.95), 1.8 * x, 1.8 * y, thickness * z, 2);
@@ -67,8 +68,8 @@ scenes::Scene room_with_pane(double thickness)
     return scene;
 }
 
-/// The same paths by both wings, but for a sample in 2^14 that goes another way in floats, which changes
-/// the mean by about as much. 7 standard errors are passed by chance once in 10^7 times.
+/// Both wings make the same paths, except for about one sample in 2^14 that rounding changes, which
+/// changes the mean by about as much. 7 standard errors are exceeded by chance once in 10^7 times.
 void expect_same(const cuda_test::Means& floats, const cuda_test::Means& doubles, const char* what)
 {
     cuda_test::Means differences;
@@ -76,7 +77,7 @@ void expect_same(const cuda_test::Means& floats, const cuda_test::Means& doubles
     EXPECT_LT(std::abs(cuda_test::average(differences)),
               7 * cuda_test::error_of(differences) + 1e-4 * cuda_test::average(doubles))
         << what << ": " << cuda_test::average(floats) << ", " << cuda_test::average(doubles);
-    // Else it would say little.
+    // Otherwise the test would be weak.
     EXPECT_LT(7 * cuda_test::error_of(differences), 0.01 * cuda_test::average(doubles)) << what;
 }
 
@@ -89,8 +90,8 @@ void expect_as_by_the_reference(const scenes::Scene& scene, int max_edges)
                 means_by_ref(scene, ref::trace_bidirectionally, max_edges, 1, samples), "bdpt");
 }
 
-// The clearance was 16 u times the diagonal, 3.3e-6 here: the ray that had entered began beyond the
-// pane.
+// A clearance of 16 u times the diagonal would be 3.3e-6 here: a ray that had entered the pane would
+// start beyond it.
 TEST(ThinThings, APaneOfGlassIsSeenThrough)
 {
     for (const double thickness : {3e-5, 3e-6}) {
@@ -99,9 +100,9 @@ TEST(ThinThings, APaneOfGlassIsSeenThrough)
     }
 }
 
-/// A matte room, a cube from -1.5 to 1.5, under whose ceiling a strong lamp covers a faint one of the
-/// same size, at a distance of `gap`; the faint one is `below` the ceiling. A box of half width
-/// `outside` around all, if > 0.
+/// A matte room, a cube from -1.5 to 1.5. Under its ceiling a strong lamp covers a faint one of the
+/// same size at a distance of `gap`; the faint one is `below` the ceiling. If `outside` > 0, a box of
+/// that half width surrounds everything.
 scenes::Scene room_with_covered_lamp(double below, double gap, double outside)
 {
     scenes::Scene scene;
@@ -125,8 +126,8 @@ scenes::Scene room_with_covered_lamp(double below, double gap, double outside)
     return scene;
 }
 
-// The strong lamp is black here, so that what the faint one adds is seen: nothing, but for what leaves
-// the gap at its sides.
+// The strong lamp is black here, so that the light of the faint one can be measured: only the light
+// that leaves the gap at its sides.
 TEST(ThinThings, ALampThatCoversAnotherHidesIt)
 {
     for (const double below : {0.0, 0.1})
@@ -147,14 +148,15 @@ TEST(ThinThings, ALampThatCoversAnotherHidesIt)
                     const double all =
                         cuda_test::average(means_by_host(uncovered, integrator, 3, 1, samples));
                     EXPECT_GT(all, 1e-6);
-                    // The sides of the gap are 4 gap of the lamp's area of 1; a path along it reflects.
+                    // The sides of the gap have 4 gap of the lamp's area of 1; a path through the gap
+                    // loses light by reflections.
                     EXPECT_LT(seen, (1e-4 + 4 * gap) * all) << static_cast<int>(integrator);
                 }
             }
 }
 
-// A lamp close under the ceiling makes a segment to the ceiling be tested from both ends. What stands
-// exactly in the middle must not be missed by both.
+// With a lamp close under the ceiling, a segment to the ceiling is tested from both ends. Both tests
+// must not miss an object that is exactly in the middle.
 TEST(ThinThings, AShelfHalfWayToACeilingWithALampIsNotSeenThrough)
 {
     scenes::Scene scene = room_with_covered_lamp(4e-6, 0.1, 0);
@@ -165,8 +167,8 @@ TEST(ThinThings, AShelfHalfWayToACeilingWithALampIsNotSeenThrough)
     expect_as_by_the_reference(scene, 5);
 }
 
-// Glass so close over a wall that a segment to the wall could end in it. (Closer than 1e-6 rays that
-// leave the glass begin beyond the wall: float_notices.h says so.)
+// Glass so close over a wall that a segment to the wall could end in it. (If it is closer than 1e-6,
+// rays that leave the glass start beyond the wall: float_notices.h reports it.)
 TEST(ThinThings, APaneCloseOverAWallIsNotLeftOut)
 {
     for (const double gap : {0.0, 3e-6, 1e-5}) {
@@ -180,7 +182,7 @@ TEST(ThinThings, APaneCloseOverAWallIsNotLeftOut)
     }
 }
 
-// Around a lamp in glass: what is far away does not move refracted rays off their lines.
+// Around a lamp in glass: distant objects do not move refracted rays.
 TEST(ThinThings, AWideGroundDoesNotChangeWhatGlassRefracts)
 {
     for (const double wider : {1.0, 1e2, 1e3}) {

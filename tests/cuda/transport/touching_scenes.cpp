@@ -16,7 +16,7 @@ using scenes::Vec3;
 
 enum : std::uint32_t { wall, other_wall, lamp, second_lamp, glass, matte };
 
-/// Collects a scene in the coordinates of the room, which is the cube from -1 to 1, and places it.
+/// Builds a scene in the coordinates of the room, which is the cube from -1 to 1, and places it.
 class Room {
 public:
     explicit Room(std::uint32_t seed) : random_(seed)
@@ -46,7 +46,7 @@ public:
     }
     [[nodiscard]] Vec3 turn(const Vec3& w) const { return w.x * x_ + w.y * y_ + w.z * z_; }
 
-    /// The parallelogram p + a [0, 1] + b [0, 1], facing a x b.
+    /// The parallelogram p + a [0, 1] + b [0, 1], facing the direction a x b.
     void add(const Vec3& p, const Vec3& a, const Vec3& b, std::uint32_t material)
     {
         scene_.triangles.push_back({{place(p), place(p + a), place(p + a + b)}, material});
@@ -86,7 +86,7 @@ public:
             place(from),  right, glm::cross(backward, right), backward, scenes::FovAxis::horizontal,
             any(0.9, 1.3)};
     }
-    void turn_over_last_two() // triangles: their other side becomes the front
+    void turn_over_last_two() // triangles: exchanges front and back
     {
         for (std::size_t i = scene_.triangles.size() - 2; i < scene_.triangles.size(); ++i)
             std::swap(scene_.triangles[i].vertices[1], scene_.triangles[i].vertices[2]);
@@ -156,7 +156,7 @@ scenes::Scene touching_scene(Touching kind, std::uint32_t seed, double gap)
         lamp_below_ceiling(0.7 - gap, lamp);
         room.add(Vec3(a - 0.1, b - 0.1, 0.7), Vec3(0, 0.5, 0), Vec3(0.4, 0, 0), second_lamp);
         break;
-    case Touching::glass_on_floor: // with a gap: sunk into the floor
+    case Touching::glass_on_floor: // with a gap it is sunk into the floor
         lamp_below_ceiling(0.8, lamp);
         room.add_box(Vec3(0.1, 0.1, -1 - gap), Vec3(0.6, 0.6, -0.5), glass, true);
         break;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Rooms in which something touches what rounding cannot tell it from, turned and moved at random so that
-// no coordinate is exact.
+// Rooms in which objects touch, so closely that rounding cannot separate them; turned and moved at
+// random so that no coordinate is exact.
 
 #include "scenes/scene.h"
 
@@ -20,12 +20,13 @@ enum class Touching {
     eye_in_edge, // of two walls
     lamp_in_wall,
     lamps_back_to_back,
-    lamp_under_lamp, // two that shine to the same side: the lower number is seen
+    lamp_under_lamp, // two that shine to the same side: the one of lower number is seen
     glass_on_floor
 };
 
-/// A room of kind `kind`, drawn from `seed`. `gap` (>= 0, in units of half the room's width) moves what
-/// touches off what it touches, into the room: 0 for contact. With a gap it is a scene like any other.
+/// A room of kind `kind`, made from `seed`. `gap` (>= 0, in units of half the room's width) moves the
+/// touching object away from the other, into the room; 0 for contact. With a gap it is an ordinary
+/// scene.
 scenes::Scene touching_scene(Touching kind, std::uint32_t seed, double gap);
 
 std::string name_of(Touching kind);

@@ -1,13 +1,13 @@
-// What touches is decided by rule and not by rounding: for random rooms with surfaces that coincide, and
-// with lights and eyes on surfaces, all integrators of both wings agree with each other, and with the
+// Contacts are decided by a rule and not by rounding. In random rooms with surfaces that coincide, and
+// with lights and eyes on surfaces, all integrators of both wings agree with each other and with the
 // limit of a small gap.
 //
-// Both wings could be wrong together: so there is the limit. It is rendered by path tracing, which never
-// finds the one thing in which a light on a wall differs from one close to it: the spot, as small as the
-// gap, that then receives half of its power.
+// Both wings could be wrong in the same way; the limit would show this. It is rendered by path
+// tracing, which never finds the only difference between a light on a wall and a light close to it: a
+// spot, as small as the gap, that receives half of the light's power.
 //
 // A comparison of two integrators is a t test on the means of whole pictures over independent batches.
-// The bound of 7 standard errors with 31 degrees of freedom is passed by chance once in 10^7 times.
+// The bound of 7 standard errors with 31 degrees of freedom is exceeded by chance once in 10^7 times.
 
 #include "tests/cuda/transport/batch_means.h"
 #include "tests/cuda/transport/touching_scenes.h"
@@ -49,7 +49,7 @@ void expect_agree(const Means& a, const Means& b, const char* what)
         << what << ": " << average(a) << ", " << average(b) << ", standard error " << error;
 }
 
-/// From the same random numbers: the differences are those of paths that go another way.
+/// From the same random numbers: differences come only from paths that rounding changes.
 void expect_agree_paired(const Means& a, const Means& b, double tolerance, const char* what)
 {
     Means differences;
@@ -58,7 +58,7 @@ void expect_agree_paired(const Means& a, const Means& b, double tolerance, const
         << what << ": " << average(a) << ", " << average(b);
 }
 
-/// What path tracing shows of a scene of that kind in the limit of a small gap.
+/// The result of path tracing for a scene of that kind in the limit of a small gap.
 Means limit_of(Touching kind, std::uint32_t seed, int max_edges)
 {
     const auto path = [&](const scenes::Scene& scene) {
@@ -67,8 +67,8 @@ Means limit_of(Touching kind, std::uint32_t seed, int max_edges)
     constexpr double gap = 1e-6;
     Means limit = path(cuda_test::touching_scene(kind, seed, gap));
     if (kind != Touching::point_light_on_lamp) return limit;
-    // There are two sides to this lamp. The light shines to both: what it adds from the one, and what it
-    // adds from the other.
+    // This lamp has two sides, and the light shines to both: adds its contribution on the one side to
+    // that on the other.
     const Means above = path(cuda_test::touching_scene(kind, seed, -gap));
     scenes::Scene without = cuda_test::touching_scene(kind, seed, 0);
     without.point_lights.clear();
@@ -83,21 +83,21 @@ TEST_P(TouchingScenes, AreTheSameForAllIntegratorsOnBothWingsAndInTheLimit)
 {
     const Touching kind = GetParam();
     const std::uint32_t seeds = std::getenv("PLUMBLINE_LONG") != nullptr ? 300 : 1;
-    const bool has_glass = kind == Touching::glass_on_floor; // light tracing does not see through it
+    const bool has_glass = kind == Touching::glass_on_floor; // light tracing cannot see through it
     const int max_edges = has_glass ? 8 : 4;
     for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const scenes::Scene scene = cuda_test::touching_scene(kind, seed, 0);
         const Means path = by_ref(scene, ref::trace_path, max_edges, seed);
         const Means bdpt = by_ref(scene, ref::trace_bidirectionally, max_edges, seed + 1000);
-        EXPECT_LT(error_of(path), 0.04 * average(path)); // else the comparisons would say little
+        EXPECT_LT(error_of(path), 0.04 * average(path)); // otherwise the comparisons would be weak
         EXPECT_LT(error_of(bdpt), 0.04 * average(bdpt));
         expect_agree(path, bdpt, "path and bdpt");
         if (!has_glass)
             expect_agree(by_ref(scene, ref::trace_light, max_edges, seed + 2000), bdpt,
                          "light and bdpt");
 
-        // A sample in 2^14 that goes another way in floats changes the mean by about as much.
+        // A sample in 2^14 that rounding changes changes the mean by about as much.
         expect_agree_paired(by_host(scene, fast::Integrator::path, max_edges, seed), path, 1e-4,
                             "path on both wings");
         expect_agree_paired(by_host(scene, fast::Integrator::bdpt, max_edges, seed + 1000), bdpt, 1e-4,

@@ -1,5 +1,4 @@
-// The random numbers of the two wings are the same numbers, but for the bits that a float has no room
-// for.
+// The random numbers of the two wings are the same, except for the bits that a float cannot hold.
 
 #include "cuda/transport/random.h"
 
@@ -14,7 +13,7 @@
 
 namespace {
 
-// The known answers that Random123 1.14 ships (kat_vectors): philox4x32, 10 rounds, all words 0.
+// The known answers of Random123 1.14 (kat_vectors): philox4x32, 10 rounds, all words 0.
 TEST(UniformsInFloat, AreTheHighestBitsOfPhilox)
 {
     const fast::Uniforms u = fast::uniforms({.seed = 0, .pixel = 0, .sample = 0}, fast::Event::camera);

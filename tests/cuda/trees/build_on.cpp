@@ -58,7 +58,7 @@ Built build_on(const Setup& setup, std::span<const fast::Aabb> boxes, std::uint6
         fast::SerialExecutor executor;
         return build_with(executor, setup.code_bits, boxes);
     }
-    case On::threads: { // three, so that sizes divide badly; blocks of one while that is not too slow
+    case On::threads: { // three, so that most sizes are not divisible; blocks of one unless too slow
         fast::ThreadedExecutor executor(3, boxes.size() < 1000 ? 1 : 4096);
         return build_with(executor, setup.code_bits, boxes);
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-// The same build by every executor, its result on the host, and as the tree that ref/ speaks of.
+// The same build by every executor, its result on the host, and the result as a tree of ref/.
 
 #include "cuda/trees/node.h"
 #include "ref/trees/tree.h"
@@ -29,7 +29,7 @@ struct Built {
     std::vector<std::uint64_t> codes; // sorted
 };
 
-/// What the last build of a fast::Lbvh in host memory left.
+/// The result of the last build of a fast::Lbvh in host memory.
 template <class Tree>
 Built copy_of(const Tree& tree)
 {
@@ -39,19 +39,20 @@ Built copy_of(const Tree& tree)
             {tree.codes().begin(), tree.codes().end()}};
 }
 
-/// Throws std::invalid_argument that names a box that is none. For the interleaved executor `seed`
-/// decides the schedule.
+/// Throws std::invalid_argument that names a box that is empty or not finite. For the interleaved
+/// executor `seed` decides the schedule.
 Built build_on(const Setup& setup, std::span<const fast::Aabb> boxes, std::uint64_t seed = 1);
 
-/// The tree as ref/trees/tree.h numbers its nodes. Parents are read from the links, children from the
-/// children: that they agree remains to be seen. `root` is the box of a tree that has no internal node.
+/// The tree with nodes numbered as in ref/trees/tree.h. Parents are read from the links, and children
+/// from the children, so that a test can compare them. `root` is the box of a tree without internal
+/// nodes.
 ref::Tree neutral(const Built& built, const fast::Aabb& root);
 
-/// Exactly the same numbers.
+/// The box with exactly the same numbers.
 ref::Aabb exactly(const fast::Aabb& box);
 std::vector<ref::Aabb> exactly(std::span<const fast::Aabb> boxes);
 
-/// Each coordinate to the nearest float: still no box is empty that was not.
+/// The boxes with each coordinate rounded to the nearest float: no box becomes empty.
 std::vector<fast::Aabb> rounded(std::span<const ref::Aabb> boxes);
 
 } // namespace cuda_test

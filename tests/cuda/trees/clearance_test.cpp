@@ -1,4 +1,4 @@
-// Leaving surfaces without an epsilon, in single precision.
+// Rays that leave surfaces without an epsilon, in single precision.
 
 #include "cuda/trees/clearance.h"
 
@@ -75,14 +75,14 @@ Vec3 leave(const Point& point, const Vec3& direction)
     return fast::leave_surface(point.position, point.normal, point.clearance, direction);
 }
 
-/// Where a segment ends that comes to `point` from `back`.
+/// The end of a segment that comes to `point` from `back`.
 Vec3 end_at(const Point& point, const Vec3& back)
 {
     const float clearance = point.clearance + fast::clearance_per_length * glm::length(back);
     return fast::leave_surface(point.position, point.normal, clearance, back);
 }
 
-/// As a ray finds it.
+/// The point where a ray hits the surface.
 std::optional<Point> find_point(const World& world, const trees_test::Vec3& target, double size,
                                 Random& random)
 {
@@ -103,7 +103,7 @@ trees_test::Vec3 tangent_to(const trees_test::Vec3& n, Random& random)
     }
 }
 
-/// A direction of any length, to either side of `n`; its cosine to n is at least `least`.
+/// A direction of any length, to either side of `n`, whose cosine to n is at least `least`.
 Vec3 away_from(const Vec3& n, double least, Random& random)
 {
     const double cosine = random.magnitude(std::log10(least), 0);
@@ -132,8 +132,9 @@ struct Setting {
     double size, offset, aspect;
 };
 
-// The normal is wrong by an angle of some 4 u aspect: of directions closer to the surface than that, the
-// side is not known. Nor is the shape of a triangle that is thinner than floats are dense where it is.
+// The normal has an error of about 4 u times the aspect ratio, as an angle. For directions closer to
+// the surface the side is unknown. So is the shape of a triangle that is thinner than the distance of
+// neighbouring floats at its place.
 std::vector<Setting> settings()
 {
     std::vector<Setting> all;
@@ -144,7 +145,7 @@ std::vector<Setting> settings()
     return all;
 }
 
-/// The ratio of longest edge to smallest height, as rounding has left it.
+/// The ratio of longest edge to smallest height, after rounding.
 double aspect_of(const Triangle& triangle)
 {
     const auto& v = triangle.vertices;
@@ -173,7 +174,7 @@ RC_GTEST_PROP(LeaveSurfaceInFloat, ARayFromATriangleMeetsNeitherItNorItsDuplicat
             const trees_test::Vec3 b = random.barycentric();
             const auto point =
                 find_point(world, b[0] * v[0] + b[1] * v[1] + b[2] * v[2] + by, s.size, random);
-            if (!point) continue; // the aim is rounded: slivers can be missed
+            if (!point) continue; // the target is rounded: slivers can be missed
             ++found;
             const Vec3 d = away_from(point->normal, least, random);
             RC_ASSERT(!occluded(world.tree.view<false>(), {leave(*point, d), infinity, d}));
@@ -190,8 +191,8 @@ TEST(LeaveSurfaceInFloat, MovesAPointByNoMoreThanItsErrorBound)
                           {});
         const trees_test::Vec3 b = random.barycentric();
         const Point point = on_triangle(world, 0, static_cast<float>(b[1]), static_cast<float>(b[2]));
-        // |n|_1 <= sqrt(3) times the largest of 4 u e + 2 u |p| + 8 u a, e and a <= D; and its
-        // rounding.
+        // The bound: |n|_1 <= sqrt(3) times the largest of 4 u e + 2 u |p| + 8 u a, where e and a
+        // are at most D; and the rounding of this.
         const double far = s.offset + 3 * s.size;
         const double largest = u * (12 * world.tree.diagonal() + 2 * far);
         const double moved =
@@ -201,7 +202,7 @@ TEST(LeaveSurfaceInFloat, MovesAPointByNoMoreThanItsErrorBound)
     }
 }
 
-// A neighbour in the same plane, up to 1e6 times larger, beyond an edge close to which the ray starts.
+// A neighbour in the same plane, up to 1e6 times larger, beyond an edge close to the start of the ray.
 TEST(LeaveSurfaceInFloat, ARayMeetsNoLargerNeighbourInThePlane)
 {
     Random random(8);
@@ -233,7 +234,8 @@ TEST(LeaveSurfaceInFloat, ARayMeetsNoLargerNeighbourInThePlane)
 
 TEST(LeaveSurfaceInFloat, DoesNotDependOnHowLargeTheRestOfTheSceneIs)
 {
-    // The height of 1e-5 above a triangle of size 1 whatever the ground is: no clearance reaches it.
+    // A height of 1e-5 above a triangle of size 1, for any size of the ground: no clearance is as
+    // large.
     for (const float ground : {1.0f, 1e3f, 1e6f}) {
         const World world({{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}},
                            {{Vec3(0, 0, 1e-5f), Vec3(1, 0, 1e-5f), Vec3(0, 1, 1e-5f)}},
@@ -270,20 +272,20 @@ RC_GTEST_PROP(LeaveSurfaceInFloat, ARayOutOfASphereDoesNotMeetItAndOneIntoItMeet
                                             globe.radius * random.magnitude(-4, 0) * random.direction();
             const auto point = find_point(world, target, globe.radius, random);
             if (!point) {
-                RC_ASSERT(globe.distance >= 1e4 * globe.radius); // there the aim is rounded
+                RC_ASSERT(globe.distance >= 1e4 * globe.radius); // beyond that the target is rounded
                 continue;
             }
             const Vec3 d = away_from(point->normal, 1e-6, random);
             const Hit hit = intersect(world.tree.view<true>(), {leave(*point, d), infinity, d});
-            // The sign of the cosine that counts is the one leave_surface sees.
+            // leave_surface uses the sign of this cosine.
             const double side = glm::dot(d, point->normal);
             const double speed = glm::length(trees_test::Vec3(d));
             const double cosine = glm::dot(trees_test::Vec3(d), trees_test::Vec3(point->normal)) / speed;
             if (side >= 0) {
                 RC_ASSERT(hit.primitive == fast::no_primitive);
             } else {
-                // The chord is 2 r |cos|, and no shorter from a point inside: anything under half is the
-                // surface that was left.
+                // The chord is 2 r |cos|, and not shorter from a point inside. A hit at less than half
+                // of it is on the surface that was left.
                 RC_ASSERT(hit.primitive == 0u);
                 RC_ASSERT(hit.t * speed >= globe.radius * -cosine);
             }
@@ -304,8 +306,8 @@ double cosine_at(const Point& p, const Point& to)
     return glm::dot(trees_test::Vec3(p.normal), d) / glm::length(d);
 }
 
-/// The side of a segment is known up to the error of the normal and of the segment itself: its ends err
-/// by what they have been moved. Of ends that coincide nothing is known (NaN).
+/// The side of a segment is known up to the error of the normal and that of the segment itself, whose
+/// ends have been moved. If both ends coincide, it is unknown (NaN).
 double least_cosine_of(const Point& p, const Point& q, double aspect)
 {
     const double length = glm::length(trees_test::Vec3(q.position) - trees_test::Vec3(p.position));
@@ -318,7 +320,8 @@ RC_GTEST_PROP(SegmentsInFloat, AreNotBlockedByTheTrianglesTheyEndOn, ())
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     for (const Setting& s : settings())
         for (int i = 0; i < 20; ++i) {
-            // The second triangle is far smaller or larger, and often nearly in the plane of the first.
+            // The second triangle is far smaller or larger, and often nearly in the plane of the
+            // first.
             const auto v = sliver_of(s.size, s.aspect, random);
             const auto w = sliver_of(s.size * random.magnitude(-3, 3), s.aspect, random);
             const trees_test::Vec3 by = s.offset * random.direction();
@@ -360,7 +363,7 @@ RC_GTEST_PROP(SegmentsInFloat, AreNotBlockedByTheSpheresTheyEndOn, ())
             const Sphere b{Vec3(trees_test::Vec3(a.center) + apart * towards),
                            static_cast<float>(other)};
             const World world({}, {a, b, a, b});
-            // Points that face each other, often barely.
+            // Points that face each other, often only just.
             const auto facing = [&](double side) {
                 return Vec3(side * towards + random.magnitude(-3, 3) * tangent_to(towards, random));
             };
@@ -372,7 +375,7 @@ RC_GTEST_PROP(SegmentsInFloat, AreNotBlockedByTheSpheresTheyEndOn, ())
         }
 }
 
-TEST(SegmentsInFloat, AreBlockedByWhatStandsBetweenHoweverCloseToAnEnd) // no shadow ray is cut short
+TEST(SegmentsInFloat, AreBlockedByWhatStandsBetweenHoweverCloseToAnEnd) // no shadow ray is too short
 {
     for (const float scale : {1e-3f, 1.0f, 1e3f})
         for (const float height : {1e-4f, 0.05f, 0.5f, 0.95f, 1 - 1e-4f}) {
@@ -412,8 +415,8 @@ TEST(LeaveSurfaceInFloat, AWalkThatStaysInsideABoxNeverLeavesIt)
         }
 }
 
-// A point in an edge may round to the far side of the second wall. `shear`: tangent of the angle by
-// which walls are tilted; 1 for 45 degrees.
+// A point in an edge may be rounded to the far side of the second wall. `shear`: the tangent of the
+// angle by which walls are tilted; 1 for 45 degrees.
 void expect_no_way_out_of_edges(double shear, double scale, double offset, std::uint64_t seed)
 {
     Random random(seed);

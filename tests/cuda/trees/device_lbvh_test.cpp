@@ -1,4 +1,4 @@
-// What only a GPU can show.
+// Tests of trees that need a GPU.
 
 #include "cuda/launch/device_lbvh.h"
 
@@ -84,7 +84,7 @@ TEST_F(OnDevice, StagesTakeTimeAndGiveTheSameTree)
     EXPECT_TRUE(same(tree.download(), build_on({cuda_test::On::serial, 63}, boxes)));
 }
 
-TEST_F(OnDevice, RaysFindTheHitsThatTheHostFinds) // bit for bit: no multiply-add is fused on either side
+TEST_F(OnDevice, RaysFindTheHitsThatTheHostFinds) // bit for bit: no fused multiply-add on either side
 {
     const auto triangles = cuda_test::triangles_of(trees_test::icosphere(4, 0.5));
     Random random(1);

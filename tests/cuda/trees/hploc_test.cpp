@@ -1,4 +1,4 @@
-// The second tier of builders: valid like the first, the same by every executor, and better.
+// The better tree builder (hploc.h): its trees are valid, equal on every executor, and of lower cost.
 
 #include "cuda/trees/hploc.h"
 
@@ -46,7 +46,7 @@ Built cluster(E& executor, std::span<const fast::Aabb> boxes)
             {}};
 }
 
-/// The neutral tree with its leaves numbered from left to right, as ref/ wants them.
+/// The neutral tree with its leaves numbered from left to right, as ref/ requires.
 ref::Tree with_leaves_in_order(const Built& built, std::span<const fast::Aabb> boxes)
 {
     ref::Tree tree = neutral(built, boxes.empty() ? fast::empty_aabb() : boxes[0]);
@@ -54,7 +54,7 @@ ref::Tree with_leaves_in_order(const Built& built, std::span<const fast::Aabb> b
     std::vector<std::uint32_t> stack;
     if (!tree.nodes.empty()) stack.push_back(0);
     std::uint32_t leaf = 0;
-    while (!stack.empty() && leaf < tree.leaf_count()) { // a cycle would go on for ever
+    while (!stack.empty() && leaf < tree.leaf_count()) { // stops also if there is a cycle
         const std::uint32_t node = stack.back();
         stack.pop_back();
         if (!tree.is_leaf(node)) {
@@ -128,7 +128,7 @@ RC_GTEST_PROP(HplocInRandomInterleavings, IsTheSame, ())
     RC_ASSERT(same(cluster(interleaved, boxes), cluster(serial, boxes)));
 }
 
-TEST(Hploc, SaysHowHighItIs) // boxes inside boxes: one more at every step
+TEST(Hploc, SaysHowHighItIs) // nested boxes: each adds a level
 {
     fast::HostMemory memory;
     fast::SerialExecutor serial;
@@ -187,14 +187,14 @@ TEST(SahCost, IsTheReferences)
     for (const std::size_t n : {1u, 2u, 300u}) {
         const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::uniform, n, random));
         const Built built = cluster(serial, boxes);
-        // Sums and quotients of floats against those of doubles: two products, two sums, and one
+        // Sums and quotients of floats compared with those of doubles: two products, two sums, and one
         // quotient.
         const double expected = ref::quality(with_leaves_in_order(built, boxes)).sah_cost;
         EXPECT_NEAR(fast::sah_cost(built.nodes), expected, 16 * 0x1p-24 * expected) << n;
     }
 }
 
-/// SAH cost, of this tree and of the full sweep's.
+/// The ratio of SAH costs: this tree over the one of the full sweep.
 double ratio_to_sweep(const std::vector<fast::Triangle>& triangles)
 {
     fast::SerialExecutor serial;
@@ -205,7 +205,7 @@ double ratio_to_sweep(const std::vector<fast::Triangle>& triangles)
     return ref::quality(tree).sah_cost / ref::quality(sweep).sah_cost;
 }
 
-TEST(Hploc, CostsAtMostATenthMoreThanTheSweep) // the goal set for it, and not a law
+TEST(Hploc, CostsAtMostATenthMoreThanTheSweep) // a goal, not a proven bound
 {
     EXPECT_LE(ratio_to_sweep(cuda_test::triangles_of(trees_test::icosphere(5, 1))), 1.10);
     EXPECT_LE(ratio_to_sweep(cuda_test::triangles_of(trees_test::tessellated_box(30, 2))), 1.10);

@@ -1,4 +1,4 @@
-// The refit under every order in which threads can take their atomic steps.
+// The refit under every order of the threads' atomic steps.
 
 #include "cuda/trees/lbvh.h"
 #include "tests/cuda/parallel/interleaved_executor.h"
@@ -20,7 +20,7 @@ using cuda_test::InterleavedExecutor;
 using trees_test::Random;
 using Words = std::array<std::uint32_t, 16>; // of a node
 
-/// A tree that was built by the serial executor, and its nodes with all boxes spoilt.
+/// A tree that was built by the serial executor, and its nodes with all boxes overwritten.
 struct Unfitted {
     fast::HostMemory memory;
     std::vector<fast::Aabb> boxes;
@@ -34,7 +34,8 @@ struct Unfitted {
         fast::SerialExecutor serial;
         tree.build(serial, boxes);
     }
-    /// Fits the boxes on `executor`; whether all are as the serial executor made them.
+    /// Refits the boxes on `executor`, and returns whether all are as the serial executor computed
+    /// them.
     template <std::uint32_t (*arrive_at)(std::uint32_t&)>
     bool refits(InterleavedExecutor& executor)
     {
@@ -49,7 +50,7 @@ struct Unfitted {
     }
 };
 
-/// Boxes whose tree is as balanced as can be, or a chain.
+/// Boxes whose tree is either balanced or a chain.
 std::vector<fast::Aabb> in_a_row(std::uint32_t n, bool chain)
 {
     std::vector<fast::Aabb> boxes;
@@ -64,7 +65,7 @@ TEST(RefitInEveryInterleaving, GivesTheSameBoxes)
 {
     for (std::uint32_t n = 1; n <= 4; ++n)
         for (const bool chain : {false, true}) {
-            if (chain && n < 4) continue; // of fewer there is only one shape, and its mirror image
+            if (chain && n < 4) continue; // with fewer there is only one shape and its mirror image
             Unfitted unfitted(in_a_row(n, chain));
             EveryChoice choices;
             InterleavedExecutor executor(n, std::ref(choices));
@@ -75,11 +76,11 @@ TEST(RefitInEveryInterleaving, GivesTheSameBoxes)
             } while (choices.next_round());
             RecordProperty("interleavings_of_" + std::to_string(n) + (chain ? "_in_a_chain" : ""),
                            rounds);
-            // The orders of the pieces between atomic steps. A leaf has one piece more than arrivals.
-            // Two leaves: 4! / (2! 2!) = 6. Four in balance: one of each pair goes on to the root, which
-            // are 4 ways, and 10! / (2! 3! 2! 3!) = 25200 orders of the pieces, of which 0.3 in each
-            // pair have the right one arrive last: 4 * 25200 * 0.3^2 = 9072. (0.3: 3 of the 10 orders of
-            // aabbb.)
+            // The number of orders of the pieces between atomic steps. A leaf has one piece more than
+            // arrivals. For two leaves it is 4! / (2! 2!) = 6. For four balanced leaves, one of each
+            // pair goes on to the root, which gives 4 cases. Each case has 10! / (2! 3! 2! 3!) = 25200
+            // orders of the pieces, and in each pair the right leaf arrives last in 0.3 of them: 4 *
+            // 25200 * 0.3^2 = 9072. (0.3: 3 of the 10 orders of aabbb.)
             EXPECT_EQ(rounds, (std::array{0, 1, 6, 126, chain ? 5670 : 9072}[n]));
         }
 }
@@ -92,7 +93,7 @@ TEST(RefitInEveryInterleaving, FindsATornCounter)
     int rounds = 0;
     int found = 0;
     do {
-        // Two leaves under one node: both may think themselves the first, and nobody resets the count.
+        // Two leaves under one node: both may count as the first, and then no thread resets the count.
         found += unfitted.refits<cuda_test::arrive_torn>(executor) ? 0 : 1;
         ++rounds;
     } while (choices.next_round());
@@ -100,7 +101,7 @@ TEST(RefitInEveryInterleaving, FindsATornCounter)
     EXPECT_LT(found, rounds);
 }
 
-/// An executor of up to 32 threads that lets `seed` decide.
+/// An executor of up to 32 threads with a schedule drawn from `seed`.
 template <std::uint32_t (*arrive_at)(std::uint32_t&)>
 bool refits_by_chance(std::size_t n, std::uint64_t seed)
 {

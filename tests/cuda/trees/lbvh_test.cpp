@@ -1,5 +1,5 @@
-// The whole build, by every executor, on all kinds of input: what holds for the trees of ref/ holds
-// here, and from the same codes the tree is the same, bit for bit.
+// The whole build, by every executor, on all kinds of boxes: the properties of the trees of ref/ hold
+// here too, and from the same codes the tree is the same, bit for bit.
 
 #include "cuda/trees/lbvh.h"
 
@@ -36,7 +36,7 @@ fast::Aabb first_or_empty(std::span<const fast::Aabb> boxes)
     return boxes.empty() ? fast::empty_aabb() : boxes[0];
 }
 
-/// What the reference makes of these codes and boxes.
+/// The tree that the reference builds from these codes and boxes.
 ref::Tree reference_tree(const Built& built, std::span<const fast::Aabb> boxes)
 {
     ref::Tree tree;
@@ -57,7 +57,7 @@ bool same_bits(const ref::Vec3& a, const ref::Vec3& b)
     return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
 }
 
-/// Everything that is wrong with a build over these boxes.
+/// The list of everything that is wrong with a build over these boxes.
 Lines violations(const Built& built, std::span<const fast::Aabb> boxes, int code_bits)
 {
     const ref::Tree tree = neutral(built, first_or_empty(boxes));
@@ -104,7 +104,7 @@ protected:
     {
         if (GetParam().on == On::device) cuda_test::skip_without_device();
     }
-    /// Sizes that this executor has the patience for.
+    /// Whether this executor can build `n` primitives in acceptable time.
     [[nodiscard]] static bool takes(std::size_t n)
     {
         return GetParam().on != On::interleaved || n < 1000;
@@ -197,7 +197,7 @@ std::string message(const Setup& setup, const std::vector<fast::Aabb>& boxes)
     return "";
 }
 
-/// What the reference says to the same boxes.
+/// The message of the reference for the same boxes.
 std::string reference_message(const std::vector<fast::Aabb>& boxes)
 {
     try {
@@ -217,7 +217,7 @@ TEST_P(LbvhOn, RejectsWhatIsNoBoxInTheReferencesWords)
     for (int axis = 0; axis < 3; ++axis)
         for (const float bad : {nan, infinity, -infinity, 1.5f}) {
             auto boxes = good;
-            boxes[299].lower[axis] = nan; // the first counts
+            boxes[299].lower[axis] = nan; // the first one is reported
             boxes[257].lower[axis] = bad;
             EXPECT_EQ(message(GetParam(), boxes).substr(0, 15), "primitive 257: ") << bad;
             EXPECT_EQ(message(GetParam(), boxes), reference_message(boxes)) << bad;
@@ -225,7 +225,7 @@ TEST_P(LbvhOn, RejectsWhatIsNoBoxInTheReferencesWords)
     EXPECT_EQ(message(GetParam(), {fast::empty_aabb()}), "primitive 0: its box is empty");
 }
 
-// ---- by kernels alone ------------------------------------------------------------------------------
+// ---- without ref/ ----------------------------------------------------------------------------------
 
 RC_GTEST_PROP(LbvhRefit, AfterPrimitivesMoveGivesTheBoxesOfTheNewPlaces, ())
 {
@@ -239,7 +239,7 @@ RC_GTEST_PROP(LbvhRefit, AfterPrimitivesMoveGivesTheBoxesOfTheNewPlaces, ())
     fast::Lbvh<std::uint32_t> tree(memory, executor, static_cast<std::uint32_t>(n));
     tree.build(executor, boxes);
     tree.refit(executor, moved);
-    tree.refit(executor, moved); // leaves nothing behind that a second one would stumble over
+    tree.refit(executor, moved); // leaves no state that would disturb a second refit
     const Built built = cuda_test::copy_of(tree);
     RC_ASSERT(is_valid_tree(neutral(built, moved[0]), cuda_test::exactly(moved)) == Lines());
 }

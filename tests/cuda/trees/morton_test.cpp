@@ -1,4 +1,4 @@
-// Codes in single precision against those of the reference.
+// Codes in single precision compared with those of the reference.
 
 #include "cuda/trees/morton.h"
 
@@ -19,7 +19,7 @@ using cuda_test::rounded;
 using trees_test::Kind;
 using trees_test::Random;
 
-/// The codes of boxes in their order, by the kernels alone.
+/// The codes of boxes in the order of the boxes, computed by the kernels alone.
 template <class Code>
 std::vector<std::uint64_t> codes_of(const std::vector<fast::Aabb>& boxes)
 {
@@ -55,9 +55,10 @@ TEST(MortonCodeInFloat, SpreadsEveryBitToItsPlace)
     for (int bit = 0; bit < 10; ++bit) EXPECT_EQ(fast::spread_bits(1u << bit), 1u << 3 * bit);
 }
 
-/// How many cells float may be away from exact arithmetic along an axis: see the head of morton.h. The
-/// reference computes in double, from the same floats: its own error is below the term of second order,
-/// for which 1% is added, and the smallest denormal stands for halves that are not exact.
+/// The largest distance, in cells along an axis, between the code in float and exact arithmetic: see
+/// the head of morton.h. The reference computes in double from the same floats. Its own error is below
+/// the term of second order, for which 1% is added; the smallest denormal covers halves that are not
+/// exact.
 double cells_apart(const std::vector<ref::Aabb>& boxes, int axis, int bits)
 {
     double M = 0;
@@ -69,7 +70,7 @@ double cells_apart(const std::vector<ref::Aabb>& boxes, int axis, int bits)
         upper = std::max(upper, centroid(box)[axis]);
     }
     const double error = 0x1p-24 * M + 0x1p-149;
-    // Where rounding takes all of the extent away, or could, there is nothing to be said.
+    // Where rounding may remove the whole extent, there is no bound.
     if (upper - lower <= 4 * error) return std::ldexp(1, bits);
     return std::ceil(1.01 * std::ldexp(4 * error / (upper - lower - 2 * error) + 3 * 0x1p-24, bits));
 }
@@ -94,7 +95,7 @@ RC_GTEST_PROP(MortonCodeInFloat, IsAFewCellsFromTheReferenceAlongEachAxis, ())
     }
 }
 
-TEST(MortonCodeInFloat, TheBoundIsOneCellForThirtyBitsOfAnOrdinaryScene) // or it would be no test
+TEST(MortonCodeInFloat, TheBoundIsOneCellForThirtyBitsOfAnOrdinaryScene) // otherwise an empty test
 {
     Random random(1);
     const auto boxes = cuda_test::exactly(rounded(trees_test::boxes(Kind::uniform, 200, random)));

@@ -1,18 +1,18 @@
 #pragma once
 
-// Wrong ways to arrive (cuda/parallel/atomic.h), which tests must be able to tell from the right one.
+// Wrong versions of `arrive` (cuda/parallel/atomic.h), which tests must be able to detect.
 
 #include "cuda/parallel/atomic.h"
 
 namespace cuda_test {
 
-/// Atomic, but without order: the box that was written before may become visible after.
+/// Atomic, but without order: the box that was written before may become visible later.
 inline std::uint32_t arrive_relaxed(std::uint32_t& counter)
 {
     return std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
 }
 
-/// Ordered, but in two steps: both children may find that they are the first.
+/// Ordered, but in two steps: both children may arrive as the first.
 inline std::uint32_t arrive_torn(std::uint32_t& counter)
 {
     const std::atomic_ref<std::uint32_t> shared(counter);

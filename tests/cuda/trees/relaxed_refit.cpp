@@ -1,7 +1,7 @@
-// Refits a tree of ten leaves on threads, over and over. `relaxed_refit right` arrives as it should;
-// `relaxed_refit relaxed` without the order that makes boxes visible. ThreadSanitizer must accept the
-// one and report the other (thread_sanitizer_test.cpp). Ends with status 0 if ThreadSanitizer does not
-// object.
+// Refits a tree of ten leaves on threads, many times. `relaxed_refit right` arrives correctly;
+// `relaxed_refit relaxed` arrives without the order that makes boxes visible. ThreadSanitizer must
+// accept the first and report the second (thread_sanitizer_test.cpp). The exit status is 0 if
+// ThreadSanitizer reports nothing.
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/lbvh.h"

@@ -21,7 +21,8 @@ using trees_test::Random;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Of any size, near or far; met by the ray's line in the middle, barely, or barely not.
+/// A sphere of any size, near or far, and a ray whose line hits it in the middle, hits it only just,
+/// or only just misses it.
 struct Encounter {
     Sphere sphere;
     Ray ray;
@@ -61,7 +62,7 @@ RC_GTEST_PROP(IntersectSphereInFloat, FindsWhatIsThereWithinTheDerivedBound, ())
     }
 }
 
-TEST(IntersectSphereInFloat, AgreesWithTheReferenceOnMostRays) // or the property above would be void
+TEST(IntersectSphereInFloat, AgreesWithTheReferenceOnMostRays) // else the property above is empty
 {
     Random random(1);
     int same = 0;
@@ -109,7 +110,7 @@ RC_GTEST_PROP(BoundSpheres, ContainTheSphereAndLittleMore, ())
             const double c = spheres[i].center[axis];
             const double r = spheres[i].radius;
             RC_ASSERT(boxes[i].lower[axis] <= c - r && boxes[i].upper[axis] >= c + r);
-            // One rounding, one step outwards of at most twice the last place, one more rounding.
+            // One rounding, one step outwards of at most twice the last place, and one more rounding.
             const double slack = 4 * 0x1p-24;
             RC_ASSERT(boxes[i].lower[axis] >= c - r - slack * std::abs(c - r));
             RC_ASSERT(boxes[i].upper[axis] <= c + r + slack * std::abs(c + r));

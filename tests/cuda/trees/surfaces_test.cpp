@@ -1,5 +1,5 @@
-// Triangles and spheres together: the tree against the search without one, bit for bit, and against
-// double precision.
+// Triangles and spheres together: queries with a tree compared with those without one, bit for bit,
+// and with double precision.
 
 #include "cuda/trees/surfaces.h"
 
@@ -35,7 +35,7 @@ struct Shapes {
     std::vector<Sphere> spheres;
 };
 
-/// On a lattice, which makes ties, or anywhere; some coincide with others.
+/// Shapes on a lattice, which makes ties, or anywhere; some coincide with others.
 Shapes some_shapes(std::size_t triangles, std::size_t spheres, Random& random)
 {
     const bool lattice = random.below(2) == 0;
@@ -57,7 +57,7 @@ Shapes some_shapes(std::size_t triangles, std::size_t spheres, Random& random)
     return shapes;
 }
 
-/// From a vertex, a sphere or anywhere to another such place, or along an axis.
+/// A ray from a vertex, a sphere or anywhere to another such place, or along an axis.
 Ray some_ray(const Shapes& shapes, Random& random)
 {
     const auto place = [&] {
@@ -79,7 +79,7 @@ Ray some_ray(const Shapes& shapes, Random& random)
     return ray;
 }
 
-/// Without a tree.
+/// The closest hit without a tree.
 Hit linear_search_of(const Shapes& shapes, const Ray& ray)
 {
     Hit best = cuda_test::linear_search(shapes.triangles, ray);
@@ -212,7 +212,7 @@ TEST(Surfaces, ThatAreNotFiniteAreRejectedByTheirNumber)
     EXPECT_EQ(complaint({{fine}, {{Vec3(0), 0}}}), "none");
 }
 
-// Refused before a byte of them is read: the numbers of primitives have 32 bits.
+// Rejected before any of them is read: primitive numbers have 32 bits.
 TEST(Surfaces, ThatAreTooManyAreRefused)
 {
     fast::HostMemory memory;
@@ -237,7 +237,7 @@ TEST(Surfaces, ThatAreTooManyAreRefused)
 TEST(SceneGeometry, FarFromTheOriginLosesNothingIfTheOriginIsNear)
 {
     Random random(1);
-    const ref::Vec3 far(1e9, -3e8, 7e9); // where neighbouring floats are 64 apart and more
+    const ref::Vec3 far(1e9, -3e8, 7e9); // where neighbouring floats differ by 64 or more
     const trees_test::Mesh mesh = trees_test::icosphere(1, 1);
     scenes::Scene near_scene = scene_of(mesh);
     near_scene.spheres = {{ref::Vec3(0.25, 0.5, -1), 0.75, 0}};
@@ -250,7 +250,7 @@ TEST(SceneGeometry, FarFromTheOriginLosesNothingIfTheOriginIsNear)
     ASSERT_EQ(boxes.size(), scenes::primitive_count(near_scene));
     for (std::size_t i = 0; i < triangles.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k)
-            // The doubles of the far scene are half of 2^-20 off.
+            // The doubles of the far scene have an error of half of 2^-20.
             EXPECT_LE(
                 glm::length(ref::Vec3(triangles[i].vertices[k]) - near_scene.triangles[i].vertices[k]),
                 0x1p-20);

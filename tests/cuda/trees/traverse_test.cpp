@@ -1,5 +1,5 @@
-// Rays in single precision: one triangle against the reference, trees against the search without one,
-// and closed meshes that must not leak.
+// Rays in single precision: one triangle compared with the reference, trees compared with the search
+// without a tree, and closed meshes that no ray may pass.
 
 #include "cuda/trees/traverse.h"
 
@@ -39,7 +39,7 @@ TEST(IntersectTriangleInFloat, AgreesWithTheReferenceWithinItsRounding)
         Triangle triangle{};
         for (Vec3& vertex : triangle.vertices) vertex = Vec3(middle + scale * random.in_cube());
         const auto v = cuda_test::exactly(triangle);
-        const ref::Vec3 b = random.barycentric() * 1.5 - 0.25; // inside and not far outside
+        const ref::Vec3 b = random.barycentric() * 1.5 - 0.25; // inside, and not far outside
         const Vec3 origin(middle + scale * random.magnitude(-1, 1) * random.in_cube());
         const Vec3 direction((b[0] * v[0] + b[1] * v[1] + b[2] * v[2] - ref::Vec3(origin)) *
                              random.magnitude(-3, 3));
@@ -65,12 +65,12 @@ TEST(IntersectTriangleInFloat, AgreesWithTheReferenceWithinItsRounding)
     EXPECT_LT(unclear, rays / 50);
 }
 
-// In the 64 bits of a long double both products are exact, and a difference has the exact one's sign.
+// In the 64 bits of a long double both products are exact, and the difference has the exact sign.
 RC_GTEST_PROP(EdgeSignInFloat, IsExactHoweverCloseTheRayPasses, ())
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const Vec3 p(random.in_cube());
-    Vec3 q = static_cast<float>(random.uniform(-2, 2)) * p; // the edge's line, but for some last bits
+    Vec3 q = static_cast<float>(random.uniform(-2, 2)) * p; // the line of the edge, up to some last bits
     for (auto i = random.below(3); i > 0; --i)
         q.x = std::nextafter(q.x, random.below(2) == 0 ? infinity : -infinity);
     const long double exact = static_cast<long double>(p.x) * q.y - static_cast<long double>(p.y) * q.x;
@@ -91,7 +91,7 @@ TEST(IntersectTriangleInFloat, CountsBothSidesEdgesAndCornersAndNothingEdgeOn)
             ASSERT_TRUE(intersect_triangle(fast::ShearedRay(ray), triangle, infinity, hit));
             EXPECT_EQ(hit.t, 1.0f);
             EXPECT_FALSE(
-                intersect_triangle(fast::ShearedRay(ray), triangle, 1, hit)); // the limit is strict
+                intersect_triangle(fast::ShearedRay(ray), triangle, 1, hit)); // t < limit, strictly
         }
     const Ray edge_on{Vec3(-1, 0.25, 0), infinity, Vec3(1, 0, 0)};
     EXPECT_FALSE(intersect_triangle(fast::ShearedRay(edge_on), triangle, infinity, hit));
@@ -107,7 +107,7 @@ bool same(const Hit& a, const Hit& b)
     return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
 }
 
-/// Whether narrow and wide tree give the linear search's answer, bit for bit.
+/// Whether the narrow and the wide tree give the hit of the linear search, bit for bit.
 bool agrees(const Traceable& tree, std::span<const Triangle> triangles, const Ray& ray)
 {
     const Hit expected = linear_search(triangles, ray);
@@ -117,7 +117,8 @@ bool agrees(const Traceable& tree, std::span<const Triangle> triangles, const Ra
            occluded(tree.wide(), ray) == any;
 }
 
-/// Triangles of all sizes on a lattice, which makes ties, flat boxes and doubles, or anywhere.
+/// Triangles of all sizes, either anywhere or on a lattice, which makes ties, flat boxes and
+/// duplicates.
 std::vector<Triangle> soup(std::size_t n, Random& random)
 {
     const bool lattice = random.below(2) == 0;
@@ -160,10 +161,10 @@ RC_GTEST_PROP(TraverseInFloat, FindsWhatTheLinearSearchFinds, ())
 }
 
 TEST(TraverseInFloat,
-     TheDeepestTreeFitsTheStack) // bit by bit of the code a level, then those of the index
+     TheDeepestTreeFitsTheStack) // one level for each bit of the code, then for each bit of the index
 {
-    // Centroids in the cells of the codes 0, 1, 2, 4, ..., 2^62, the first of them 1024 times; all
-    // triangles so large that every ray from the middle meets every box.
+    // Centroids in the cells of the codes 0, 1, 2, 4, ..., 2^62, the first of them 1024 times. All
+    // triangles are so large that every ray from the middle enters every box.
     std::vector<Triangle> triangles;
     const auto add = [&](const Vec3& middle) {
         const Vec3 half(64, 64, 64);

@@ -1,4 +1,4 @@
-// Four triangles at once: none that is hit may be passed over.
+// Four triangles at once: no triangle that is hit may be skipped.
 
 #include "cuda/trees/triangle_group.h"
 
@@ -35,8 +35,8 @@ TriangleGroup group_of(const std::vector<Triangle>& triangles)
     return group;
 }
 
-/// From a point in the triangle's plane but for a few roundings, and often nearly along that plane:
-/// there it is least clear whether the triangle lies behind.
+/// A ray from a point in the triangle's plane, up to a few roundings, and often nearly along that
+/// plane. There it is hardest to decide whether the triangle is behind.
 Ray barely_leaving(const Triangle& triangle, Random& random)
 {
     const auto& v = triangle.vertices;
@@ -67,7 +67,7 @@ RC_GTEST_PROP(TriangleGroup, PassesOverNothingThatIsHit, ())
         for (int k = 0; k < 8; ++k) {
             const fast::ShearedRay ray(barely_leaving(triangles[0], random));
             const std::uint32_t candidates = may_hit(ray, group);
-            RC_ASSERT(candidates < 1u << triangles.size()); // NaN is never looked at
+            RC_ASSERT(candidates < 1u << triangles.size()); // NaN is never a candidate
             for (std::size_t lane = 0; lane < triangles.size(); ++lane) {
                 fast::Hit hit{};
                 if (intersect_triangle(ray, triangles[lane], infinity, hit))
@@ -92,7 +92,7 @@ TEST(TriangleGroup, LeavesOutWhatIsClearlyBehindOrBeside)
         intersect_group(ray, group, infinity, [&](const fast::Hit& /*hit*/) { ++hits; });
     }
     EXPECT_GT(hits, 500);
-    EXPECT_LE(candidates, hits + 5); // 16 u is little beside a random distance
+    EXPECT_LE(candidates, hits + 5); // 16 u is small compared with a random distance
 }
 
 } // namespace

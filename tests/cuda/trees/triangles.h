@@ -13,7 +13,7 @@
 
 namespace cuda_test {
 
-/// The vertices of a mesh to the nearest float: triangles that shared one share it still.
+/// The vertices of a mesh rounded to the nearest float: triangles that shared a vertex still share it.
 inline std::vector<fast::Triangle> triangles_of(const trees_test::Mesh& mesh)
 {
     std::vector<fast::Triangle> triangles;

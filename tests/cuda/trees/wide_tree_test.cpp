@@ -1,4 +1,4 @@
-// From narrow trees to wide ones.
+// The conversion of narrow trees to wide ones.
 
 #include "cuda/trees/wide_tree.h"
 
@@ -58,7 +58,7 @@ struct Census {
     std::size_t groups = 0;
 };
 
-/// The box around all below `child`, of which every part must be as the wide nodes say.
+/// The box around everything below `child`. Checks that the boxes in the wide nodes agree with it.
 Aabb check_below(const fast::WideTreeView& tree, const Narrow& narrow, std::uint32_t child,
                  Census& census, std::uint32_t& primitives)
 {
@@ -95,7 +95,7 @@ Aabb check_below(const fast::WideTreeView& tree, const Narrow& narrow, std::uint
         }
         all = unite(all, box);
     }
-    RC_ASSERT(below > fast::most_in_group); // or it would be a group
+    RC_ASSERT(below > fast::most_in_group); // otherwise it would be a group
     primitives += below;
     return all;
 }
@@ -103,7 +103,7 @@ Aabb check_below(const fast::WideTreeView& tree, const Narrow& narrow, std::uint
 bool same_nodes(std::span<const WideNode> a, std::span<const WideNode> b)
 {
     if (a.size() != b.size()) return false;
-    for (std::size_t i = 0; i < a.size(); ++i) // what fills up the line after them is anything
+    for (std::size_t i = 0; i < a.size(); ++i) // the elements after them are undefined
         if (std::memcmp(a[i].planes, b[i].planes, sizeof a[i].planes) != 0 ||
             std::memcmp(a[i].children, b[i].children, sizeof a[i].children) != 0)
             return false;
@@ -128,7 +128,7 @@ RC_GTEST_PROP(WideTree, HoldsEveryPrimitiveOnceInBoxesThatFit, ())
         check_below(tree.view(), narrow, fast::leaf_bit, census, primitives);
     RC_ASSERT(primitives == narrow.triangles.size());
     for (const int times : census.seen) RC_ASSERT(times == 1);
-    RC_ASSERT(census.nodes == tree.view().nodes.size()); // and none that is not needed
+    RC_ASSERT(census.nodes == tree.view().nodes.size()); // no unnecessary nodes
     RC_ASSERT(census.groups == tree.view().groups.size());
 }
 
@@ -149,7 +149,7 @@ RC_GTEST_PROP(WideTree, IsTheSameForEveryExecutor, ())
     }
 }
 
-/// Appends a balanced tree over `count` new leaves with equal boxes; returns its name from above.
+/// Appends a balanced tree over `count` new leaves with equal boxes; returns its number as a child.
 std::uint32_t balanced(std::vector<Node>& nodes, std::uint32_t& leaves, std::uint32_t count,
                        const Aabb& box)
 {
@@ -161,8 +161,8 @@ std::uint32_t balanced(std::vector<Node>& nodes, std::uint32_t& leaves, std::uin
     return at;
 }
 
-// The worst that can happen to the stack: at every level of the deepest tree the larger child is opened
-// twice, and the ray goes down into the smaller one, with three others stack.
+// The worst case for the stack: at every level of the deepest tree the larger child is opened twice,
+// and the ray continues into the smaller child with three other children on the stack.
 TEST(WideTree, TheDeepestOneFitsTheStack)
 {
     std::vector<Node> nodes;
@@ -175,7 +175,7 @@ TEST(WideTree, TheDeepestOneFitsTheStack)
         nodes[at].children[1] = balanced(nodes, leaves, 16, larger);
         nodes[at].children[0] = static_cast<std::uint32_t>(nodes.size());
     }
-    balanced(nodes, leaves, 16, smaller); // where the last level expects it
+    balanced(nodes, leaves, 16, smaller); // the child that the last level refers to
     std::vector<std::uint32_t> primitives(leaves);
     for (std::uint32_t i = 0; i < leaves; ++i) primitives[i] = i;
     Random random(1);

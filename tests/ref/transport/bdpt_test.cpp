@@ -1,4 +1,5 @@
-// Bidirectional path tracing and light tracing as a whole: against path tracing, and by their rules.
+// Bidirectional path tracing and light tracing as a whole: compared with path tracing, and by their
+// rules.
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
@@ -15,16 +16,17 @@ namespace {
 
 using ref::Contribution;
 
-/// PLUMBLINE_LONG multiplies the samples, for a night's run.
+/// With PLUMBLINE_LONG, multiplies the samples, for a run overnight.
 int effort()
 {
     return std::getenv("PLUMBLINE_LONG") != nullptr ? 16 : 1;
 }
 
-/// A scene, its samples per batch, the longest paths, and the bias of a whole picture that a comparison
-/// finds with 99% power (in its quarters: three times that): of path tracing, with four times the
-/// samples, and light tracing, likewise, against both ways. 0: it cannot see everything, because mirror
-/// or glass stands between a scattering surface and the eye.
+/// A scene, its samples per batch, its longest paths, and the relative biases of a whole picture that
+/// are detected with 99% power when path tracing or light tracing is compared with bidirectional path
+/// tracing. In quarters of the picture the detectable bias is three times as large. Both have four
+/// times the samples. 0 means that light tracing misses paths, because a mirror or glass is between a
+/// scattering surface and the eye.
 struct Case {
     const char* scene;
     int batch_size;
@@ -96,8 +98,8 @@ TEST_P(Integrators, MakeTheSamePicture)
     }
 }
 
-// Another heuristic distributes the same light otherwise: not only the sums, each path's shares add up
-// to 1 (mis_weight_test.cpp), here in the mean.
+// Another heuristic distributes the same light in another way. The weights of each path add up to 1
+// (mis_weight_test.cpp); here this is tested for the mean.
 TEST(Heuristics, MakeTheSamePicture)
 {
     const scenes::Scene scene = transport_test::our_scene("all_emitters");
@@ -112,9 +114,9 @@ TEST(Heuristics, MakeTheSamePicture)
     expect_same_pictures(picture(ref::Heuristic::balance, 45), picture(ref::Heuristic::power, 46), 0.12);
 }
 
-// No contribution is longer than max_edges, and up to there none is missing: fewer edges leave out
-// exactly the longer ones and change the weights of none, as no strategy of a shorter path depends on
-// longer walks.
+// No contribution is longer than max_edges, and none up to that length is missing. A smaller max_edges
+// leaves out exactly the longer paths and changes no other weight, since no strategy of a shorter path
+// depends on longer walks.
 TEST(MaxEdges, LeavesOutTheLongerPathsAlone)
 {
     const scenes::Scene scene = transport_test::our_scene("cornell_glass");

@@ -52,7 +52,7 @@ RC_GTEST_PROP(Bsdf, LambertianIsReciprocalAndItsDensitiesAgreeWithTheSample, ())
     for (int i = 0; i < 3; ++i) RC_ASSERT(std::abs(value[i] - s.value[i]) <= 4 * epsilon * s.value[i]);
 }
 
-// Opaque: nothing may pass to the other side.
+// Opaque: no light may pass to the other side.
 RC_GTEST_PROP(Bsdf, LambertianDoesNotTransmit, ())
 {
     const scenes::Material material = scenes::Lambertian{Rgb(1.0)};
@@ -78,8 +78,8 @@ TEST(Fresnel, AtNormalIncidenceIsTheTextbookValue)
     EXPECT_EQ(cos_t, 1.0);
 }
 
-// Unpolarised reflectance at Brewster's angle, tan(theta) = n, is half of the perpendicular part alone:
-// ((1 - n^2) / (1 + n^2))^2 / 2.
+// At Brewster's angle, tan(theta) = n, unpolarised reflectance is half of the perpendicular component,
+// ((1 - n^2) / (1 + n^2))^2 / 2, because the parallel component is 0.
 TEST(Fresnel, AtBrewstersAngleOnlyThePerpendicularPartIsLeft)
 {
     const double n = 1.45;
@@ -97,9 +97,9 @@ TEST(Fresnel, BeyondTheCriticalAngleAllIsReflected)
     EXPECT_NEAR(refracted(1e-9, 1.0, 1.45, cos_t), 1.0, 1e-8); // grazing: 1 - O(cos)
 }
 
-// Reflectance is the same from both sides along one light path: 1 - F is what both ways transmit.
-// Tolerance: both sides are smooth in cos_i except where sqrt(1 - sin^2) loses digits near the critical
-// angle, which cos_t > 1e-3 keeps to a relative error of epsilon / cos_t^2.
+// Reflectance is the same from both sides along one light path, since 1 - F is the transmittance in
+// both directions. Tolerance: both sides are smooth in cos_i, except that sqrt(1 - sin^2) loses digits
+// near the critical angle. With cos_t > 1e-3 the relative error is at most epsilon / cos_t^2.
 RC_GTEST_PROP(Fresnel, IsTheSameFromBothSides, ())
 {
     const double cos_i = *any_unit();
@@ -113,22 +113,22 @@ RC_GTEST_PROP(Fresnel, IsTheSameFromBothSides, ())
     RC_ASSERT(std::abs(back - cos_i) < 1e-9);
 }
 
-// Snell's law, written without reference to the code's way: eta_i sin_i = eta_t sin_t, in one plane, to
-// the other side.
+// Snell's law, written independently of the code: eta_i sin_i = eta_t sin_t, in one plane, to the
+// other side.
 RC_GTEST_PROP(Glass, RefractsBySnellsLaw, ())
 {
     const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), 1.45};
     const Vec3 wo = *any_direction();
     const auto s = sample_bsdf(glass, wo, {0.5, 0.5, 1.0 - 0x1p-33, 0.5}, Transport::radiance);
-    RC_PRE(wo.z * s.wi_local.z < 0.0); // else total reflection
+    RC_PRE(wo.z * s.wi_local.z < 0.0); // otherwise total reflection
     const double eta_i = wo.z > 0.0 ? 1.0 : 1.45;
     const double eta_t = wo.z > 0.0 ? 1.45 : 1.0;
     RC_ASSERT(glm::length(eta_i * glm::dvec2(wo) + eta_t * glm::dvec2(s.wi_local)) < 1e-12);
     RC_ASSERT(std::abs(glm::length(s.wi_local) - 1.0) < 4 * epsilon);
 }
 
-// A delta lobe's value is its colour, times (eta_i / eta_t)^2 where radiance is refracted: Fresnel's
-// factor and the probability of the lobe cancel.
+// The value of a delta lobe is its colour, times (eta_i / eta_t)^2 where radiance is refracted: the
+// Fresnel factor and the probability of the lobe cancel.
 RC_GTEST_PROP(Glass, RadianceIsSqueezedAndPowerIsNot, ())
 {
     const scenes::Material glass = scenes::Glass{Rgb(0.9), Rgb(0.8), 1.5};
@@ -146,16 +146,17 @@ RC_GTEST_PROP(Glass, RadianceIsSqueezedAndPowerIsNot, ())
     }
 }
 
-// In through one face and out through a parallel one: radiance is what it was, and so is the direction.
+// In through one face and out through a parallel one: the radiance is unchanged, and so is the
+// direction.
 RC_GTEST_PROP(Glass, ARoundTripInAndOutIsLossless, ())
 {
     const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), 1.45};
     const Uniforms through = {0.5, 0.5, 1.0 - 0x1p-33, 0.5};
     const Vec3 wo = *any_direction();
-    RC_PRE(wo.z > 1e-4); // close to grazing the direction's last digits decide
+    RC_PRE(wo.z > 1e-4); // close to grazing, the last digits of the direction matter too much
     const auto in = sample_bsdf(glass, wo, through, Transport::radiance);
     RC_PRE(in.wi_local.z < 0.0);
-    // At the far face the outside is on the other side: mirror z, there and back.
+    // At the far face the outside is on the other side: mirror z before and after.
     const Vec3 mirrored(-in.wi_local.x, -in.wi_local.y, in.wi_local.z);
     const auto out = sample_bsdf(glass, mirrored, through, Transport::radiance);
     const Vec3 leaving(out.wi_local.x, out.wi_local.y, -out.wi_local.z);
@@ -165,8 +166,8 @@ RC_GTEST_PROP(Glass, ARoundTripInAndOutIsLossless, ())
     RC_ASSERT(std::abs(in.pdf_fwd - out.pdf_fwd) < 1e-10 && in.pdf_fwd == in.pdf_rev);
 }
 
-// Reflected and transmitted fractions add up to 1: the frequencies of the lobes against Fresnel's
-// equations, and a total of exactly what came in for power.
+// The reflected and transmitted fractions add up to 1: tests the frequencies of the lobes against
+// Fresnel's equations, and, for power, that the total equals the incident power.
 TEST(Glass, ConservesPower)
 {
     const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), 1.45};

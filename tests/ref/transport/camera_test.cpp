@@ -33,8 +33,8 @@ const View views[] = {{0.6, scenes::FovAxis::horizontal, 30, 20},
                       {1.4, scenes::FovAxis::vertical, 30, 20},
                       {2.0, scenes::FovAxis::horizontal, 10, 14}};
 
-// Wide pictures see their edges at a cosine c = cos(fov / 2): a direction's roundoff moves the film
-// point by 1 / c^2 half widths.
+// At the edges of a wide picture the cosine is c = cos(fov / 2): the roundoff of a direction moves the
+// film point by 1 / c^2 half widths.
 RC_GTEST_PROP(Camera, ProjectsARayBackToItsFilmPoint, ())
 {
     const View view = *rc::gen::elementOf(std::vector<View>(std::begin(views), std::end(views)));
@@ -50,8 +50,8 @@ RC_GTEST_PROP(Camera, ProjectsARayBackToItsFilmPoint, ())
     RC_ASSERT(glm::length(*back - film) <= 16 * 0x1p-53 * 30 / (c * c));
 }
 
-// The corners of the picture by their angles: the field of view is where it says, up is up and right is
-// right.
+// The corners of the picture by their angles: the field of view has the given size, up is up, and
+// right is right.
 TEST(Camera, SeesTheFieldOfViewThatItIsGiven)
 {
     for (const View& view : views) {
@@ -78,7 +78,7 @@ TEST(Camera, SeesNothingBehindItNorBesideThePicture)
         EXPECT_FALSE(camera.project(side).has_value());
         EXPECT_FALSE(camera.project(glm::normalize(0.01 * side + data.backward)).has_value());
     }
-    // One part in 1e12 beyond each edge, and as far within.
+    // A relative distance of 1e-12 outside and inside each edge.
     const auto around = [&](double x, double y) {
         return camera.project(camera.ray({x, y}).direction).has_value();
     };
@@ -93,7 +93,8 @@ TEST(Camera, SeesNothingBehindItNorBesideThePicture)
     EXPECT_FALSE(around(3.0, 23.0 + tiny));
 }
 
-// A film point is a pixel: the position in it is its fraction, rows count from the top.
+// The integer part of a film point is its pixel, and the fraction the position in it; rows are counted
+// from the top.
 TEST(Camera, CountsPixelsFromTheTopLeft)
 {
     const auto data = oblique(1.0, scenes::FovAxis::horizontal);
@@ -106,8 +107,8 @@ TEST(Camera, CountsPixelsFromTheTopLeft)
     EXPECT_NEAR(film->y, 10 * (1 - 0.1 / (half * 20 / 30)), 1e-13);
 }
 
-/// The integral over the directions of the picture, by midpoints in the spherical angles of the camera's
-/// axis (nothing of the camera but whether it sees them takes part).
+/// The integral over the directions of the picture, by midpoints in the spherical angles around the
+/// camera's axis. Of the camera it uses only whether a direction is in the picture.
 template <class Function>
 double over_the_picture(const Camera& camera, const scenes::Camera& data, Function f)
 {
@@ -125,9 +126,9 @@ double over_the_picture(const Camera& camera, const scenes::Camera& data, Functi
     return sum * 2 * std::numbers::pi / (static_cast<double>(steps) * steps);
 }
 
-// pdf and W_e cos are 1 / (A c^3): where the picture ends, the midpoint rule is wrong by less than a
-// cell at each of some 2 x 1600 cells, of which errors of either sign cancel. 1e-3 is 20 times what is
-// seen, and a wrong power of the cosine or a forgotten area is 5% and more.
+// pdf and W_e cos are 1 / (A c^3). At the border of the picture the midpoint rule has an error of less
+// than one cell, at each of about 2 x 1600 cells, and errors of both signs cancel. The tolerance of
+// 1e-3 is 20 times the observed error; a wrong power of the cosine or a missing area is 5% and more.
 TEST(Camera, DensityAndImportanceIntegrateToOne)
 {
     for (const View& view : views) {
@@ -136,7 +137,7 @@ TEST(Camera, DensityAndImportanceIntegrateToOne)
         EXPECT_NEAR(
             over_the_picture(camera, data, [&](const Vec3& w) { return camera.pdf_solid_angle(w); }),
             1.0, 1e-3);
-        // W_e counts the flux through the pinhole, which stands askew.
+        // W_e measures the flux through the pinhole, whose normal is tilted to the ray.
         EXPECT_NEAR(over_the_picture(camera, data,
                                      [&](const Vec3& w) {
                                          return camera.importance(w) * -glm::dot(w, data.backward);
@@ -145,8 +146,8 @@ TEST(Camera, DensityAndImportanceIntegrateToOne)
     }
 }
 
-// Film points uniform over the whole picture give directions of the camera's density: on the unit square
-// of (1 - z, phi), equal in area, as far as the picture reaches from its axis.
+// Uniform film points over the whole picture give directions with the camera's density: on the unit
+// square of (1 - z, phi), equal in area, as far from the axis as the picture extends.
 TEST(Camera, DirectionsFollowTheirDensity)
 {
     for (const View& view : views) {

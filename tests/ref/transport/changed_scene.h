@@ -1,12 +1,12 @@
 #pragma once
 
-// The same scene elsewhere and at another size, for tests of what must not depend on that.
+// The same scene moved or scaled, for tests of invariance.
 
 #include "scenes/scene.h"
 
 namespace transport_test {
 
-/// Every length times `factor`. Radiance stays what it is when intensities grow with the square.
+/// Every length times `factor`. Intensities grow with its square, so that radiance is unchanged.
 inline scenes::Scene scaled(scenes::Scene scene, double factor)
 {
     for (auto& triangle : scene.triangles)

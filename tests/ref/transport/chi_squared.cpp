@@ -32,7 +32,7 @@ void expect_samples_follow_density(const Sampler& sample, const Density& density
 {
     std::vector<double> expected = integrate_cells(density, grid, steps);
     const double total = std::accumulate(expected.begin(), expected.end(), 0.0);
-    expected.push_back(std::max(0.0, 1.0 - total)); // of giving no sample
+    expected.push_back(std::max(0.0, 1.0 - total)); // the probability of no sample
 
     std::vector<double> observed(expected.size(), 0.0);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -66,7 +66,7 @@ void expect_samples_follow_density(const Sampler& sample, const Density& density
         ++pools;
         pooled_expected = pooled_observed = 0.0;
     }
-    // A corner of the density's support may slip between the midpoints of a cell, but not more.
+    // The midpoints of a cell may miss a corner of the density's support, but not more.
     EXPECT_LE(observed_at_zero, 20.0) << "samples where the density is zero";
     ASSERT_GT(pools, 1);
     const boost::math::chi_squared distribution(pools - 1);

@@ -1,4 +1,4 @@
-// Bidirectional path tracing and light tracing against closed forms, by path length.
+// Bidirectional path tracing and light tracing compared with closed forms, per path length.
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
@@ -17,9 +17,9 @@ using ref::Rgb;
 using ref::Vec3;
 constexpr double pi = std::numbers::pi;
 
-// Paths from a point light in glass to a scattering plane: next event is never possible, so a path
-// tracer is black; the light image alone finds them. With j reflections inside the ball E_j = (1-F) F^j
-// I cos / d^2, F = 0.04, at 3 + j edges.
+// Paths from a point light in glass to a scattering plane. Next event is never possible, so a path
+// tracer gives a black picture; only the light image finds these paths. With j reflections inside the
+// ball E_j = (1-F) F^j I cos / d^2, F = 0.04, at 3 + j edges.
 TEST(ClosedFormBothWays, PointInGlassIsSeenByLightWalksAlone)
 {
     const scenes::Scene scene = transport_test::our_scene("point_in_glass");
@@ -66,7 +66,7 @@ TEST(ClosedFormBothWays, PointInGlassIsSeenByLightWalksAlone)
     EXPECT_TRUE(out.empty());
 }
 
-// The integrating sphere by path length, as for the path tracer: rho^(k-1) I / (pi R^2).
+// The integrating sphere per path length, as for the path tracer: rho^(k-1) I / (pi R^2).
 TEST(ClosedFormBothWays, IntegratingSphereByPathLength)
 {
     const scenes::Scene scene = transport_test::our_scene("integrating_sphere");
@@ -95,8 +95,8 @@ TEST(ClosedFormBothWays, IntegratingSphereByPathLength)
     }
 }
 
-// A luminous sphere in an integrating sphere: on the wall rho L q (rho (1 - q))^(k-2), q = 0.09. Pixels
-// that see the lamp or its edge are left out.
+// A luminous sphere in an integrating sphere. On the wall the radiance is rho L q (rho (1 - q))^(k-2),
+// q = 0.09. Pixels that see the lamp or its edge are left out.
 TEST(ClosedFormBothWays, IntegratingSphereWithALampByPathLength)
 {
     const scenes::Scene scene = transport_test::our_scene("integrating_sphere_lamp");
@@ -114,7 +114,7 @@ TEST(ClosedFormBothWays, IntegratingSphereWithALampByPathLength)
             wall_material = sphere.material;
         }
     const Rgb rho = std::get<scenes::Lambertian>(scene.materials[wall_material]).albedo;
-    std::vector<int> wall; // pixels whose corners are all well beside the lamp
+    std::vector<int> wall; // pixels whose corners are all well outside the lamp
     for (int i = 0; i < 256; ++i) {
         double nearest = 1.0;
         for (const glm::dvec2 c : {glm::dvec2(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
@@ -149,8 +149,9 @@ TEST(ClosedFormBothWays, IntegratingSphereWithALampByPathLength)
     }
 }
 
-// Total reflection, Fresnel and eta^2 in one: n^2 Le (1 - F^(edges - 1)), see the scene's head. Weighted
-// bidirectionally nothing but the emission hit remains, with weight exactly 1.
+// Total reflection, Fresnel and eta^2 together: n^2 Le (1 - F^(edges - 1)), see the comment at the
+// head of the scene. In bidirectional path tracing only the emission hit remains, with weight exactly
+// 1.
 TEST(ClosedFormBothWays, CameraInGlassSeesTheSkyByHittingItAlone)
 {
     const scenes::Scene scene = transport_test::our_scene("camera_in_glass_furnace");

@@ -1,5 +1,5 @@
-// Scenes whose radiance is known in closed form, sample by sample where nothing is random but the point
-// of the film, and by means per path length elsewhere. The formulas stand in the heads of the scenes.
+// Scenes with radiance in closed form. If only the film point is random, every sample is compared;
+// otherwise the means per path length. The formulas are in the comments at the heads of the scenes.
 
 #include "ref/transport/path_tracer.h"
 #include "tests/ref/transport/estimate.h"
@@ -18,8 +18,8 @@ using ref::Rgb;
 using ref::Vec3;
 constexpr double pi = std::numbers::pi;
 
-/// Where the camera's ray through a film point (in pixels) meets the plane z = 0, from the camera's data
-/// alone: nothing of ref/ takes part.
+/// The point where the camera's ray through a film point (in pixels) meets the plane z = 0, computed
+/// from the camera's data alone, without any code of ref/.
 Vec3 point_on_plane(const scenes::Camera& camera, int width, int height, double x, double y)
 {
     const double span = 2.0 * std::tan(camera.fov / 2.0);
@@ -34,9 +34,10 @@ Rgb albedo_of_plane(const scenes::Scene& scene)
     return std::get<scenes::Lambertian>(scene.materials[scene.triangles[0].material]).albedo;
 }
 
-/// Compares every sample's radiance with the closed form at the very point that the sample sees. Without
-/// any noise left the tolerance is rounding: 1e-11 relative, 1e5 unit roundoffs, for some tens of
-/// operations and their conditioning (a distance from a difference of coordinates, a grazing cosine).
+/// Compares the radiance of every sample with the closed form at the point that the sample sees. There
+/// is no noise, so the tolerance is rounding: 1e-11 relative, which is 1e5 unit roundoffs, for some
+/// tens of operations and their conditioning (a distance from a difference of coordinates, a grazing
+/// cosine).
 void expect_every_sample(const scenes::Scene& scene, const std::function<Rgb(const Vec3&)>& closed_form,
                          const std::function<bool(const Vec3&)>& undecided)
 {
@@ -98,8 +99,8 @@ TEST(ClosedForm, DirectionalLightOverPlaneWithTheShadowOfABall)
 
 enum class Blocked { no, yes, undecided };
 
-/// Whether a card (any triangle but the plane's two) stands between two points [Moeller & Trumbore
-/// 1997]; within 1e-9 of an edge the answer is left open.
+/// Whether a card (any triangle except the two of the plane) is between two points [Moeller & Trumbore
+/// 1997]; unknown within 1e-9 of an edge.
 Blocked blocked_by_a_card(const scenes::Scene& scene, const Vec3& from, const Vec3& to)
 {
     Blocked answer = Blocked::no;
@@ -144,13 +145,14 @@ TEST(ClosedForm, SpotLightOverPlaneWithTheShadowsOfTwoCards)
             return std::abs(cosine(p) - light.cos_cutoff) < 1e-9 ||
                    blocked_by_a_card(scene, p, light.position) == Blocked::undecided ||
                    blocked_by_a_card(scene, p, scene.camera->eye) !=
-                       Blocked::no; // the card itself is seen
+                       Blocked::no; // the card itself is visible
         });
     EXPECT_GT(in_shadow, 100);
 }
 
-// A sphere wholly above the horizon lights a plane with E = pi L (r/d)^2 cos, whatever its size. Whole
-// picture and quarters, against the closed form integrated over each pixel with 16 x 16 points.
+// A sphere wholly above the horizon lights a plane with E = pi L (r/d)^2 cos, for any size of the
+// sphere. The whole picture and its quarters are compared with the closed form, integrated over each
+// pixel with 16 x 16 points.
 TEST(ClosedForm, LuminousSphereOverPlane)
 {
     const scenes::Scene scene = transport_test::our_scene("sphere_over_plane");
@@ -166,7 +168,7 @@ TEST(ClosedForm, LuminousSphereOverPlane)
                 point_on_plane(*scene.camera, width, height, (x + 0.5) / steps, (y + 0.5) / steps);
             const Vec3 eye = scene.camera->eye;
             const double past_ball = glm::length(glm::cross(glm::normalize(p - eye), ball.center - eye));
-            if (past_ball < ball.radius) continue; // the ball stands before the plane
+            if (past_ball < ball.radius) continue; // the ball is in front of the plane
             const double d = glm::length(ball.center - p);
             expected.pixels[static_cast<std::size_t>(y / steps * width + x / steps)] +=
                 albedo_of_plane(scene) * radiance * std::pow(ball.radius / d, 2) * ball.center.z / d /
@@ -188,9 +190,9 @@ TEST(ClosedForm, LuminousSphereOverPlane)
     EXPECT_EQ(batches[0][0].pixels[12 * width + 24].x == 0.0, expected.pixels[12 * width + 24].x != 0.0);
 }
 
-// The integrating sphere, albedo rho, radius R, a point light of intensity I inside: direct light varies
-// as I cos / d^2, and whatever bounced once is the same everywhere: rho^(k-1) I / (pi R^2) over paths of
-// k edges.
+// The integrating sphere, with albedo rho and radius R, and a point light of intensity I inside.
+// Direct light varies as I cos / d^2. After one bounce, light is the same everywhere: rho^(k-1) I /
+// (pi R^2) over paths of k edges.
 TEST(ClosedForm, IntegratingSphere)
 {
     const scenes::Scene scene = transport_test::our_scene("integrating_sphere");
@@ -207,7 +209,7 @@ TEST(ClosedForm, IntegratingSphere)
             const double expected = std::pow(rho[channel], k - 1) * light.intensity[channel] /
                                     (pi * wall.radius * wall.radius);
             const auto& b = batches[static_cast<std::size_t>(k)];
-            // Roulette begins with the fifth bounce: fewer and fewer paths are that long.
+            // Roulette begins with the fifth bounce: fewer and fewer paths are as long as that.
             const double specification = k <= 6 ? 0.01 : 0.05;
             transport_test::expect_mean(transport_test::measure(b, {0, 0, 32, 32}, channel), expected,
                                         specification);
@@ -217,7 +219,7 @@ TEST(ClosedForm, IntegratingSphere)
                                         2 * specification);
         }
 
-    // The direct part, sample by sample.
+    // The direct light, sample by sample.
     std::vector<ref::Contribution> contributions;
     for (std::uint32_t pixel = 0; pixel < 32 * 32; ++pixel) {
         const ref::SampleId id{7, pixel, 0};
@@ -239,7 +241,7 @@ TEST(ClosedForm, IntegratingSphere)
     }
 }
 
-// Roulette must not change the expectation (bugs: not compensated, or divided twice).
+// Roulette must not change the expectation (possible bugs: not compensated, or divided twice).
 TEST(ClosedForm, RouletteChangesNothingInTheMean)
 {
     const scenes::Scene scene = transport_test::our_scene("integrating_sphere");

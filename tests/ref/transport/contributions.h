@@ -1,6 +1,6 @@
 #pragma once
 
-// Contributions one by one, compared without any statistics.
+// Comparison of individual contributions, without statistics.
 
 #include "ref/transport/world.h"
 
@@ -10,7 +10,7 @@
 
 namespace transport_test {
 
-/// What `count` samples of a picture of 24 x 16 pixels contribute, pixel by pixel in turns.
+/// The contributions of `count` samples of a picture of 24 x 16 pixels, one sample per pixel in turn.
 inline std::vector<ref::Contribution>
 contributions(const scenes::Scene& scene, ref::Integrator integrator, int max_edges, std::uint32_t count)
 {
@@ -23,7 +23,8 @@ contributions(const scenes::Scene& scene, ref::Integrator integrator, int max_ed
     return out;
 }
 
-/// How many contributions differ by more than `tolerance`, relatively; all, if their number does.
+/// The number of contributions that differ by more than `tolerance` (relative); all, if the lists
+/// differ in length.
 inline std::size_t different(const std::vector<ref::Contribution>& a,
                              const std::vector<ref::Contribution>& b, double tolerance)
 {

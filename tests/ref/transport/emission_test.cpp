@@ -13,7 +13,8 @@ using ref::Rgb;
 using ref::Vec3;
 constexpr double pi = std::numbers::pi;
 
-/// All six kinds of emitters over a matte floor. The ball around the box [-1, 1]^3 has radius sqrt(3).
+/// All six kinds of emitters above a matte floor. The ball around the box [-1, 1]^3 has radius
+/// sqrt(3).
 scenes::Scene six_emitters()
 {
     scenes::Scene scene;
@@ -34,8 +35,8 @@ scenes::Scene six_emitters()
     return scene;
 }
 
-/// The flux of each emitter by its closed form: pi A L, 4 pi I, I 2 pi (1 - c^(n+1)) / (n+1), E pi R^2,
-/// L 4 pi pi R^2.
+/// The flux of each emitter in closed form: pi A L, 4 pi I, I 2 pi (1 - c^(n+1)) / (n+1), E pi R^2, L
+/// 4 pi pi R^2.
 Rgb flux(const scenes::Scene& scene, EmitterKind kind)
 {
     const double disc = pi * 3.0;
@@ -62,7 +63,7 @@ constexpr EmitterKind kinds[] = {EmitterKind::triangle,    EmitterKind::sphere,
                                  EmitterKind::point,       EmitterKind::spot,
                                  EmitterKind::directional, EmitterKind::environment};
 
-/// The scene with the other emitters made black: choosing is then certain.
+/// The scene with all other emitters made black: the choice of the emitter is then certain.
 scenes::Scene with_one_emitter(EmitterKind kind)
 {
     scenes::Scene scene = six_emitters();
@@ -77,14 +78,14 @@ scenes::Scene with_one_emitter(EmitterKind kind)
 
 double probability_of(const scenes::Scene& scene, EmitterKind kind)
 {
-    const ref::Geometry geometry(scene); // emitter_choice_test.cpp knows what it must be
+    const ref::Geometry geometry(scene); // tested in emitter_choice_test.cpp
     const ref::Emitters emitters(geometry);
     for (const ref::Emitter& emitter : emitters.all())
         if (emitter.kind == kind) return emitter.probability;
     return 0.0;
 }
 
-/// Uniforms such that sample_emission begins with `kind`, by search over the first number.
+/// The first number for which sample_emission chooses `kind`, found by search.
 double number_that_chooses(const ref::World& world, EmitterKind kind)
 {
     for (int i = 0; i < 1000; ++i) {
@@ -111,7 +112,8 @@ std::string kind_name(EmitterKind kind)
 INSTANTIATE_TEST_SUITE_P(Kinds, Emission, testing::ValuesIn(kinds),
                          [](const auto& name) { return kind_name(name.param); });
 
-/// A point one unit down the ray: the next vertex as a density per solid angle wants it, facing y0.
+/// A vertex one unit along the ray that faces y0, so that a density per area there is one per solid
+/// angle.
 ref::Vertex facing_vertex(const ref::Vertex& y0, const Vec3& w)
 {
     ref::SurfacePoint point{};
@@ -120,8 +122,8 @@ ref::Vertex facing_vertex(const ref::Vertex& y0, const Vec3& w)
     return {ref::Vertex::Kind::surface, point, Vec3(0.0), nullptr, Rgb(1.0)};
 }
 
-// Of a finite emitter: the direction, chi-squared; of one at infinity, the place on the disc, which must
-// cover the ball around the scene.
+// For a finite emitter the direction is tested by chi-squared; for an emitter at infinity the position
+// on the disc, which must cover the ball around the scene.
 TEST_P(Emission, DirectionsFollowTheirDensity)
 {
     const auto y0 = [&](const ref::Uniforms& u) {
@@ -135,7 +137,7 @@ TEST_P(Emission, DirectionsFollowTheirDensity)
         const auto sample = [&](const ref::Uniforms& u) {
             const auto start = y0(u);
             EXPECT_NEAR(glm::length(start.ray.direction - w), 0.0, 1e-15);
-            // outside of all geometry, on the side that light comes from
+            // outside all geometry, on the side from which the light comes
             EXPECT_LE(glm::dot(start.ray.origin, w), -r);
             const Vec3 p = start.ray.origin;
             return std::optional(
@@ -155,15 +157,15 @@ TEST_P(Emission, DirectionsFollowTheirDensity)
     }
     const auto sample = [&](const ref::Uniforms& u) { return std::optional(y0(u).ray.direction); };
     const ref::Vertex start = y0({0.5, 0.5, 0.5, 0.5}).y0;
-    const auto density = [&](const Vec3& w) { // one unit away and facing: per area is per solid angle
+    const auto density = [&](const Vec3& w) { // distance 1, facing: per area is per solid angle
         return pdf_area_emission_direction(world, start, facing_vertex(start, w));
     };
     transport_test::expect_directions_follow_density(sample, density, transport_test::coarse, 100);
     transport_test::expect_directions_follow_density(sample, density, transport_test::fine, 20);
 }
 
-// The density of y1 per area is that per solid angle times cosine over squared distance: at three times
-// the distance and 60 degrees askew an eighteenth; from infinity a half.
+// The density of y1 per area is the density per solid angle times cosine over squared distance: at
+// three times the distance and 60 degrees tilt it is an eighteenth; from infinity a half.
 TEST_P(Emission, DensityAtTheNextVertexIsPerArea)
 {
     const auto start = *sample_emission(world, {chooses, 0.3, 0.6, 0.5}, {0.4, 0.7, 0.5, 0.5});
@@ -179,8 +181,8 @@ TEST_P(Emission, DensityAtTheNextVertexIsPerArea)
     EXPECT_NEAR(pdf_area_emission_direction(world, start.y0, far), expected, 1e-13 * expected);
 }
 
-// Places: uniform on a surface, with density P / A; directions of the environment uniform, P / 4 pi; of
-// the others there is one place, with P.
+// Positions are uniform on a surface, with density P / A. Directions of the environment are uniform,
+// with P / 4 pi. Each of the other emitters has one position, with probability P.
 TEST_P(Emission, PositionsFollowTheirDensity)
 {
     const EmitterKind kind = GetParam();
@@ -225,10 +227,10 @@ TEST_P(Emission, PositionsFollowTheirDensity)
     EXPECT_NEAR(pdf, probability / measure, 1e-14 * pdf);
 }
 
-// The mean of what light walks set out with is the flux of all emitters; of those that leave one kind,
-// the flux of that kind. Exact numbers: for all kinds but the spot every walk carries the same, so that
-// any one tells; the spot's is a smooth function of one number, integrated by midpoints (1e-6: second
-// order in 1 / 4096).
+// The mean of the initial weights of light walks is the flux of all emitters; the mean over the walks
+// from one kind is the flux of that kind. These numbers are exact: for all kinds except the spot every
+// walk has the same weight, so that one walk is enough; the weight of the spot is a smooth function of
+// one number, integrated by midpoints (1e-6: second order in 1 / 4096).
 TEST_P(Emission, WalksCarryTheFluxOfTheirEmitter)
 {
     const EmitterKind kind = GetParam();
@@ -243,12 +245,12 @@ TEST_P(Emission, WalksCarryTheFluxOfTheirEmitter)
         const double expected = flux(scene, kind)[channel] / probability;
         EXPECT_NEAR(mean[channel], expected, 1e-6 * expected);
     }
-    // alpha of y0 is 1 / density of its place.
+    // The alpha of y0 is 1 / the density of its position.
     const auto start = sample_emission(world, {chooses, 0.3, 0.6, 0.5}, {0.4, 0.4, 0.5, 0.5});
     EXPECT_NEAR(start->y0.alpha.x * pdf_emission_position(start->y0), 1.0, 1e-14);
 }
 
-// alpha is what is emitted, times the cosine on a surface, over both densities.
+// alpha is the emission, times the cosine on a surface, over both densities.
 TEST_P(Emission, WeightIsEmissionOverDensity)
 {
     for (int i = 0; i < 100; ++i) {
@@ -264,7 +266,7 @@ TEST_P(Emission, WeightIsEmissionOverDensity)
     }
 }
 
-// No emitter: no walk; a black one is never chosen.
+// Without an emitter there is no walk; a black emitter is never chosen.
 TEST(EmissionOfNothing, StartsNoWalk)
 {
     scenes::Scene dark = with_one_emitter(EmitterKind::point);
@@ -273,7 +275,7 @@ TEST(EmissionOfNothing, StartsNoWalk)
     EXPECT_FALSE(sample_emission(world, {0.5, 0.5, 0.5, 0.5}, {0.5, 0.5, 0.5, 0.5}).has_value());
 }
 
-// Alone, an emitter's walks carry exactly its flux: the choice is certain.
+// The walks of a single emitter carry exactly its flux, since the choice is certain.
 TEST(EmissionOfOne, CarriesItsFluxAlone)
 {
     for (const EmitterKind kind : kinds) {

@@ -1,4 +1,4 @@
-// The choice of an emitter: exactly as often as its probability says, and none is starved.
+// The choice of an emitter: exactly as often as its probability, and none is starved.
 
 #include "ref/transport/emitter_choice.h"
 
@@ -35,8 +35,8 @@ RC_GTEST_PROP(EmitterChoice, EveryEmitterWithPowerHasWholeCellsAndNoOtherHasAny,
     if (transport_test::total_of(powers) > 0.0) RC_ASSERT(borders.back() == 1.0);
 }
 
-// One cell for each of k, which takes k cells from what is shared; and a border is rounded by half a
-// cell at both ends.
+// Each of the k emitters gets one cell first, which takes k cells from the shared part. Both borders
+// of an emitter are rounded by half a cell.
 RC_GTEST_PROP(EmitterChoice, HalfIsByPowerAndHalfIsAlike, ())
 {
     const std::vector<double> powers = transport_test::any_powers();
@@ -71,14 +71,14 @@ TEST(EmitterChoice, RefusesWhatItCannotShareOut)
                  std::invalid_argument);
     EXPECT_THROW((void)choice_borders(std::vector<double>((1 << 24) + 1, 1.0)), std::invalid_argument);
     EXPECT_EQ(choice_borders(std::vector<double>(1 << 24, 1.0))[5], 6 * 0x1p-24);
-    // The sum of these is not finite, their shares are.
+    // The sum of these powers is not finite, but their shares are.
     EXPECT_EQ(choice_borders(std::vector{1e308, 1e308}), (std::vector{0.5, 1.0}));
     EXPECT_EQ(choice_borders(std::vector{0.0, 0.0}), (std::vector{0.0, 0.0}));
 }
 
 class StarvedLamp : public transport_test::OfEveryIntegrator {
 protected:
-    /// The plane is as bright as its lamp makes it.
+    /// Checks that the plane is as bright as its lamp makes it.
     static void expect_lit(const scenes::Scene& scene, int samples)
     {
         const ref::World world(scene, 4, 4);
@@ -94,7 +94,7 @@ protected:
 };
 class StarvedLampUnderSky : public StarvedLamp {};
 
-// Whatever else shines, out of sight or into the dark, the lamp over the plane is seen as it is.
+// The lamp over the plane gives the same picture with any other emitters that light nothing in view.
 TEST_P(StarvedLamp, LightsThePlaneBesideEmittersOfAnyPower)
 {
     for (const double ratio : {1.0, 1e3, 1e6, 1e9, 1e12}) {
@@ -103,8 +103,8 @@ TEST_P(StarvedLamp, LightsThePlaneBesideEmittersOfAnyPower)
     }
 }
 
-// The power of the sky grows with the area of what it shines on: here up to 1e12 times the lamp's. Light
-// tracing is left out: from a sky that wide it does not find the part that is seen.
+// The power of the sky grows with the area that it lights: here up to 1e12 times the lamp's. Light
+// tracing is left out: with so wide a sky it does not find the part in view.
 TEST_P(StarvedLampUnderSky, LightsThePlaneUnderAWideSky)
 {
     for (const double half_width : {1e1, 1e2, 1e4, 1e6}) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Lists of powers of very different size, some of them 0.
+// Lists of powers of very different size; some of them are 0.
 
 #include <rapidcheck.h>
 

@@ -24,7 +24,7 @@ scenes::Scene with_material(const Rgb& radiance)
     return scene;
 }
 
-/// A triangle facing `from`, off every axis.
+/// A triangle that faces `from`, not aligned with any axis.
 scenes::Scene triangle_lamp()
 {
     scenes::Scene scene = with_material(Rgb(4.0, 3.0, 2.0));
@@ -39,8 +39,8 @@ scenes::Scene sphere_lamp()
     return scene;
 }
 
-/// The density of sample_incident in direction w, through a ray and the density at the point it meets.
-/// A dark side is never drawn: it has density zero here.
+/// The density of sample_incident in direction w, from a ray and the density at the point that it
+/// hits. A dark side is never sampled: there the density is zero.
 double density_through_ray(const Emitters& emitters, const Vec3& w)
 {
     const ref::Ray ray{from, w};
@@ -61,8 +61,9 @@ void expect_incident_light_follows_its_density(const scenes::Scene& scene)
         return light->wi;
     };
     const auto density = [&](const Vec3& w) { return density_through_ray(emitters, w); };
-    // A cell on the emitter's outline is known to 1 / steps of its mean: below the noise of the
-    // histogram, some hundred samples a cell, on the fine grid; the coarse grid has finer steps.
+    // In a cell on the outline of the emitter, the integral has an error of 1 / steps of the cell's
+    // mean. On the fine grid this is below the noise of the histogram, with some hundred samples per
+    // cell; the coarse grid has finer steps.
     transport_test::expect_directions_follow_density(sample, density, transport_test::coarse, 100);
     transport_test::expect_directions_follow_density(sample, density, transport_test::fine, 20);
 }
@@ -72,9 +73,9 @@ TEST(Emitter, LightFromATriangleFollowsItsDensity)
     expect_incident_light_follows_its_density(triangle_lamp());
 }
 
-// Seen from outside, a uniform point of a sphere has a density per solid angle that grows without bound
-// towards the outline, which no grid of directions resolves. Its points are tested on the sphere itself,
-// its densities by the two tests that follow.
+// Seen from outside, a uniform point of a sphere has a density per solid angle that is unbounded near
+// the outline, so that no grid of directions resolves it. The points are tested on the sphere itself,
+// and the densities by the next two tests.
 TEST(Emitter, PointsOnASphereAreUniform)
 {
     const scenes::Scene scene = sphere_lamp();
@@ -89,8 +90,8 @@ TEST(Emitter, PointsOnASphereAreUniform)
         sample, [](const Vec3&) { return ref::pdf_solid_angle_sphere; }, transport_test::fine, 1);
 }
 
-/// The expectation of 1 / pdf over the samples is the solid angle that can be drawn: midpoints of a grid
-/// over the two numbers that place the point.
+/// The expectation of 1 / pdf over the samples is the solid angle that can be sampled. It is computed
+/// with the midpoints of a grid over the two numbers that give the point.
 double solid_angle_by_samples(const scenes::Scene& scene)
 {
     const Geometry geometry(scene);
@@ -105,8 +106,8 @@ double solid_angle_by_samples(const scenes::Scene& scene)
     return sum;
 }
 
-// The integrand is bounded and has a jump in its slope at most: an error of the order of 1 / steps^2,
-// around the outline 1 / steps of what is left there, which is 0.
+// The integrand is bounded, and only its slope may have a jump: the error is of the order of 1 /
+// steps^2. Around the outline it is 1 / steps of the integrand there, which is 0.
 TEST(Emitter, DensityOnASphereIntegratesToItsSolidAngle)
 {
     const auto sphere = sphere_lamp().spheres[0];
@@ -127,8 +128,9 @@ TEST(Emitter, DensityOnATriangleIntegratesToItsSolidAngle)
     EXPECT_NEAR(solid_angle_by_samples(triangle_lamp()), expected, 1e-5 * expected);
 }
 
-// Point light and triangle together: the choice between them is part of the density (bug class:
-// selection probability missing). The point light's samples are certain and count as none here.
+// A point light and a triangle together: the choice between them is part of the density (possible bug:
+// the selection probability is missing). The samples of the point light are certain and are ignored
+// here.
 TEST(Emitter, TheChoiceAmongEmittersIsPartOfTheDensity)
 {
     scenes::Scene scene = triangle_lamp();
@@ -160,7 +162,7 @@ TEST(Emitter, EnvironmentFollowsItsDensity)
     transport_test::expect_directions_follow_density(sample, density, transport_test::fine, 1);
 }
 
-// What is drawn carries the very density that a hit in the same direction is weighted with.
+// The density of a sample is the same density that weights a hit in the same direction.
 RC_GTEST_PROP(Emitter, ADrawnDensityIsTheDensityOfAHit, ())
 {
     const scenes::Scene scene = *rc::gen::arbitrary<bool>() ? triangle_lamp() : sphere_lamp();
@@ -187,8 +189,8 @@ TEST(Emitter, ShinesOnTheSideOfItsNormalOnly)
     EXPECT_EQ(emitted_radiance(scene, point, point.normal), Rgb(4.0, 3.0, 2.0));
 }
 
-// Half by shares of power, each by its own closed form, half alike. The scene's sphere around all
-// geometry has radius 1 here.
+// Half of the choice is in proportion to power, each power in closed form; the other half is uniform.
+// The sphere around all geometry has radius 1 here.
 TEST(Emitter, AreChosenHalfInProportionToTheirPowerAndHalfAlike)
 {
     scenes::Scene scene = with_material(Rgb(1.0));
@@ -218,15 +220,15 @@ TEST(Emitter, AreChosenHalfInProportionToTheirPowerAndHalfAlike)
     for (std::size_t i = 0; i < 6; ++i)
         EXPECT_NEAR(emitters.all()[i].probability, probability(i), 8 * 0x1p-24);
 
-    constexpr int count = 100'000; // stratified: each share is met to one in count
+    constexpr int count = 100'000; // stratified: each share is exact to one in `count`
     std::vector<int> chosen(6, 0);
     for (int i = 0; i < count; ++i)
         ++chosen[static_cast<std::size_t>(emitters.choose((i + 0.5) / count) - emitters.all().data())];
     for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(chosen[i], count * probability(i), 1.1);
 }
 
-// The integral of the spot's intensity over all directions, by the midpoint rule, is the power that its
-// share is made of: 2 pi (1 - c^(n+1)) / (n+1), and no lobe behind the light.
+// The integral of the spot's intensity over all directions, by the midpoint rule, must be the power
+// from which its share is computed: 2 pi (1 - c^(n+1)) / (n+1). There is no lobe behind the light.
 TEST(Emitter, SpotIntensityIntegratesToItsPower)
 {
     struct Case {

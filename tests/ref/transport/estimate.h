@@ -1,6 +1,6 @@
 #pragma once
 
-// Renders small pictures batch by batch, keeps every batch, and judges means against known values.
+// Renders small pictures batch by batch, keeps every batch, and tests means against known values.
 
 #include "images/image.h"
 #include "ref/transport/world.h"
@@ -12,7 +12,7 @@
 
 namespace transport_test {
 
-/// The class of a contribution, 0 <= class < classes; any other value leaves it out.
+/// The class of a contribution, 0 <= class < classes; contributions with any other value are left out.
 using Classify = std::function<int(const ref::Contribution&)>;
 
 /// Batches of pictures of one class of contributions: batches[b] is the mean of batch b.
@@ -25,12 +25,12 @@ struct EstimateOptions {
     ref::PathOptions path{};
 };
 
-/// One set of batches per class. Two threads; the result does not depend on them, because a batch is
-/// summed by one thread in sample order.
+/// One set of batches per class. Runs on two threads; the result does not depend on their number,
+/// because a batch is summed by one thread in sample order.
 std::vector<Batches> estimate(const ref::World& world, ref::Integrator integrator,
                               const EstimateOptions& options, int classes, const Classify& classify);
 
-/// Everything in one class.
+/// All contributions in one class.
 Batches estimate(const ref::World& world, ref::Integrator integrator, const EstimateOptions& options);
 
 /// Pixels x0 <= x < x1, y0 <= y < y1.
@@ -54,24 +54,26 @@ struct Measured {
 
 Measured measure(std::span<const double> values);
 
-/// The same of one channel over a region.
+/// The same for one channel over a region.
 Measured measure(const Batches& batches, const Region& region, int channel);
 
-/// Two-sided level of every single comparison below: with a few thousand of them in the suite, one false
-/// alarm in some hundred changes of seed. Seeds are fixed, so a passing test goes on passing.
+/// Two-sided level of every single comparison below. With a few thousand comparisons in the suite, a
+/// change of all seeds gives a false alarm about once in some hundred times. Seeds are fixed, so a
+/// passing test goes on passing.
 inline constexpr double alpha = 1e-6;
 
-/// The value that Student's t of so many degrees of freedom exceeds with a probability of `level`.
+/// The value that Student's t with `degrees` degrees of freedom exceeds with a probability of `level`.
 double t_quantile(double degrees, double level);
 
-/// The bias that a comparison with this standard error finds with a power of 99%.
+/// The bias that a comparison with this standard error detects with a power of 99%.
 double detectable_bias(double standard_error, double degrees);
 
-/// Student's t test of a measured mean against the true one. Fails too if the test could not have found
-/// a bias of the fraction `specification` of the expected value: a test that sees nothing is no test.
+/// Student's t test of a measured mean against the true one. It also fails if the test could not have
+/// detected a bias of the fraction `specification` of the expected value: a test without power is
+/// worthless.
 void expect_mean(const Measured& measured, double expected, double specification);
 
-/// Welch's t test of two measured means, with the same demand on its power.
+/// Welch's t test of two measured means, with the same requirement on its power.
 void expect_equal_means(const Measured& a, const Measured& b, double specification);
 
 } // namespace transport_test

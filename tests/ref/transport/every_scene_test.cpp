@@ -1,4 +1,4 @@
-// What holds of every scene in the repository: light is finite and never negative, and adds up.
+// Properties of every scene in the repository: light is finite, never negative, and additive.
 
 #include "tests/ref/transport/integrators.h"
 #include "tests/ref/transport/known_light.h"
@@ -24,7 +24,8 @@ TEST_P(EveryScene, HasNoSampleThatIsNegativeOrNotANumber)
         const scenes::Scene scene = scenes::read_scene(file);
         SCOPED_TRACE(scene.name);
         const ref::World world(scene, 48, 32);
-        // As many samples as the search through all primitives allows; at least one in some pixels.
+        // As many samples as the search through all primitives allows; at least one in some of the
+        // pixels.
         const auto affordable = static_cast<int>(1'000'000 / (scenes::primitive_count(scene) + 180));
         std::vector<Contribution> contributions;
         for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(GetParam().samples(affordable)); ++i) {
@@ -47,7 +48,7 @@ TEST_P(EveryScene, HasNoSampleThatIsNegativeOrNotANumber)
     }
 }
 
-/// The scene with one kind of light alone. An emissive surface put out is still there, black.
+/// The scene with one kind of light only. Other emissive surfaces are still there, but black.
 scenes::Scene with_only(scenes::Scene scene, int kind)
 {
     for (auto& triangle : scene.triangles)
@@ -67,8 +68,9 @@ scenes::Scene with_only(scenes::Scene scene, int kind)
     return scene;
 }
 
-// Light is linear: six kinds of emitters together are the sum of each alone. Whether one is chosen with
-// another probability than is divided by, or weighed against another emitter's density, shows here.
+// Light is linear: the picture of six kinds of emitters is the sum of those of each kind. This fails
+// if an emitter is chosen with another probability than the one divided by, or weighted with the
+// density of another emitter.
 TEST_P(EveryScene, ThePictureOfAllEmittersIsTheSumOfSix)
 {
     constexpr int width = 36;

@@ -1,5 +1,5 @@
-// Closed rooms: where light comes from everywhere alike, or returns to where it was, the picture is
-// known whatever happens on the way. The formulas stand in the heads of the scenes.
+// Closed rooms where the same light comes from all sides, or where light returns: the picture is known
+// for any bounces. The formulas are in the comments at the heads of the scenes.
 
 #include "tests/ref/transport/integrators.h"
 #include "tests/ref/transport/known_light.h"
@@ -22,10 +22,10 @@ int by_edges(const Contribution& c)
     return edges(c);
 }
 
-// White objects: whatever a walk does, the sky that it meets in the end has lost nothing. Without
-// roulette that is so in every single sample, and every walk meets it: after 1000 bounces, of which
-// each that is diffuse leaves the open box with a chance of one in ten at the least, none is left.
-// Rounding: below 1e-15 per bounce.
+// White objects: the sky that a walk finally hits has lost nothing on any walk. Without roulette this
+// holds for every single sample, and every walk hits the sky: a diffuse bounce leaves the open box
+// with a probability of at least one in ten, so no walk is left after 1000 bounces. Rounding: below
+// 1e-15 per bounce.
 TEST(FurnaceBySample, EveryWalkBringsHomeTheWholeSky)
 {
     const scenes::Scene scene = transport_test::our_scene("furnace");
@@ -41,8 +41,8 @@ TEST(FurnaceBySample, EveryWalkBringsHomeTheWholeSky)
                                      });
 }
 
-// With roulette each bounce from the fifth on is survived with a probability of 0.95 at the most (on
-// white, exactly that), and what survives must bring that much more.
+// With roulette, the probability to survive a bounce, from the fifth on, is at most 0.95 (on white,
+// exactly 0.95), and the weight of a walk that survives must grow accordingly.
 TEST(FurnaceBySample, WhatSurvivesRouletteBringsTheOthersShare)
 {
     const scenes::Scene scene = transport_test::our_scene("furnace");
@@ -76,8 +76,9 @@ TEST_P(Furnace, WhiteObjectsCannotBeSeen)
         GetParam().bias(0.015));
 }
 
-// Light of each length, with all strategies weighted, against the light of that length that walks of the
-// path tracer find by themselves, unweighted: a sum over lengths could hide what one lends to another.
+// Light of each length by all strategies, weighted, is compared with light of that length from
+// emission hits of the path tracer alone, unweighted: a sum over lengths could hide errors that
+// cancel.
 TEST_P(Furnace, EachLengthBringsWhatWalksAloneFind)
 {
     const scenes::Scene scene = transport_test::our_scene("furnace");
@@ -98,7 +99,7 @@ TEST_P(Furnace, EachLengthBringsWhatWalksAloneFind)
         const auto part = transport_test::measure(weighted[k], {0, 0, 24, 16}, 1);
         transport_test::expect_equal_means(part, transport_test::measure(alone[k], {0, 0, 24, 16}, 1),
                                            GetParam().bias(0.35));
-        EXPECT_GT(part.mean, 0.0); // truncated, the picture rises with each edge
+        EXPECT_GT(part.mean, 0.0); // truncated: the picture becomes brighter with each edge
         below += part.mean;
     }
     EXPECT_LT(below, scene.environment->y); // and stays below the sky
@@ -112,9 +113,9 @@ protected:
     const ref::World world{scene, width, height};
     const Rgb sky = scene.environment.value();
     const Rgb rho = std::get<scenes::Lambertian>(scene.materials[scene.spheres.at(0).material]).albedo;
-    const double form_factor = 1.0 / 25.0 + 1.0 / 121.0; // of the two other spheres, at most
+    const double form_factor = 1.0 / 25.0 + 1.0 / 121.0; // of the two other spheres, upper bound
 
-    /// Pixels wholly on sphere number `sphere`, with `radiance`.
+    /// The pixels that show only sphere number `sphere`, with `radiance`.
     [[nodiscard]] transport_test::KnownPicture on_sphere(std::uint32_t sphere, const Rgb& radiance) const
     {
         return transport_test::known_picture(
@@ -125,7 +126,7 @@ protected:
             });
     }
 
-    /// A narrow view of the point (-7, 0, 0): 0.13 wide there, so that the rim does not come into view.
+    /// A narrow view of the point (-7, 0, 0): 0.13 wide there, so that the rim is not in view.
     static void look_from_the_left(scenes::Scene& moved)
     {
         auto& camera = *moved.camera;
@@ -146,8 +147,8 @@ protected:
                                         rho[channel] * sky[channel], GetParam().bias(bias));
     }
 
-    /// The confidence interval of the mean over a sphere reaches neither below nor above the bounds, and
-    /// is narrow: two hundredths, for the fastest integrator.
+    /// The confidence interval of the mean over a sphere must lie between the bounds, and be narrow:
+    /// two hundredths, for the fastest integrator.
     void expect_between(const transport_test::Batches& batches, std::uint32_t sphere, const Rgb& low,
                         const Rgb& high) const
     {
@@ -189,7 +190,7 @@ TEST_P(GreyFurnace, LightLiesBetweenItsBounds)
     expect_between(together, 2, m, sky);
 }
 
-// Of the point (-7, 0, 0), which sees neither of the other spheres, the light is known exactly.
+// At the point (-7, 0, 0), which sees neither of the other spheres, the radiance is known exactly.
 TEST_P(GreyFurnace, ConvexAndAloneItReflectsItsAlbedo)
 {
     scenes::Scene from_the_left = scene;
@@ -198,7 +199,8 @@ TEST_P(GreyFurnace, ConvexAndAloneItReflectsItsAlbedo)
 }
 
 // A light that nothing sees, inside the grey sphere, takes half of the samples and must not take any
-// light: the probability of choosing the sky belongs in its density, on both sides of every weight.
+// light: the probability of choosing the sky belongs to its density, in the numerator and the
+// denominator of every weight.
 TEST_P(GreyFurnace, ALightThatNothingSeesTakesNothingAway)
 {
     scenes::Scene hidden = scene;
@@ -210,8 +212,9 @@ TEST_P(GreyFurnace, ALightThatNothingSeesTakesNothingAway)
     expect_albedo_times_sky(hidden, 64, 0.02);
 }
 
-// Every bounce off grey multiplies by its albedo, and nothing else changes what a walk brings: not
-// mirror, not glass. None can bring more than the sky, and what sees the sky sees just that.
+// Every bounce on grey multiplies by its albedo, and no other bounce changes the weight of a walk,
+// neither on a mirror nor on glass. No walk returns more than the sky, and a pixel that sees the sky
+// directly shows exactly the sky.
 TEST(FurnaceBySample, AWalkBringsTheSkyTimesAPowerOfTheAlbedo)
 {
     const scenes::Scene scene = transport_test::our_scene("furnace_grey");
@@ -242,8 +245,8 @@ TEST(FurnaceBySample, AWalkBringsTheSkyTimesAPowerOfTheAlbedo)
     for (const int walks : walks_with_bounces) EXPECT_GT(walks, 0);
 }
 
-// A luminous sphere in the middle of a grey one: the wall sees the lamp under the form factor
-// q = (a / R)^2 and itself under 1 - q, from everywhere. After j bounces: rho L q (rho (1 - q))^j.
+// A luminous sphere in the middle of a grey one: every point of the wall sees the lamp under the form
+// factor q = (a / R)^2 and the wall under 1 - q. After j bounces: rho L q (rho (1 - q))^j.
 TEST_P(Furnace, IntegratingSphereWithALamp)
 {
     constexpr int size = 32;
@@ -271,7 +274,8 @@ TEST_P(Furnace, IntegratingSphereWithALamp)
                 return k == 1 ? radiance : Rgb(0.0);
             });
         SCOPED_TRACE(std::to_string(k) + " edges");
-        // Fewer and fewer walks are that long: of green, the brightest, 0.73 per bounce.
+        // Fewer and fewer walks are so long: for green, the brightest channel, a factor of 0.73 per
+        // bounce.
         transport_test::expect_picture(batches[static_cast<std::size_t>(k)], known,
                                        GetParam().bias(k <= 6 ? 0.08 : 0.16), 2);
     }

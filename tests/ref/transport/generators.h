@@ -1,6 +1,6 @@
 #pragma once
 
-// Generators that cover their whole range from the first try on: RapidCheck's own begin near zero.
+// Generators that cover their whole range from the first value on; RapidCheck's own begin near zero.
 
 #include "ref/transport/sampling.h"
 

@@ -1,5 +1,6 @@
-// Cameras and lights inside glass. Light that crosses a boundary once shows eta^2, which cancels where
-// it goes in and out again. The formulas stand in the heads of the scenes.
+// Cameras and lights inside glass. Light that crosses a boundary once has a factor eta^2, which
+// cancels where light goes in and out again. The formulas are in the comments at the heads of the
+// scenes.
 
 #include "tests/ref/transport/integrators.h"
 #include "tests/ref/transport/known_light.h"
@@ -32,15 +33,16 @@ double index_of(const scenes::Scene& scene)
     throw std::logic_error("no glass in " + scene.name);
 }
 
-/// Sine of the angle at which the line meets the sphere around `center`, from inside or outside.
+/// Sine of the angle between the line and the normal where it meets the sphere around `center`, from
+/// inside or outside.
 double sine_at(const Line& line, const Vec3& center, double radius)
 {
     return glm::length(glm::cross(line.from - center, line.direction)) / radius;
 }
 
-// A ray inside a ball meets it at the same angle for ever: totally reflected it never leaves, and else
-// it brings n^2 times the sky, in every single sample. Half a part in 1e9 around the critical angle is
-// left open.
+// A ray inside a ball meets it at the same angle at every reflection. If it is totally reflected it
+// never leaves; otherwise every single sample has n^2 times the radiance of the sky. Rays within 1e-9
+// of the critical angle are left out.
 TEST(GlassRoomsBySample, OutOfGlassTheSkyIsEtaSquaredBrighterOrNotThere)
 {
     const scenes::Scene scene = transport_test::our_scene("camera_in_glass_furnace");
@@ -59,8 +61,7 @@ TEST(GlassRoomsBySample, OutOfGlassTheSkyIsEtaSquaredBrighterOrNotThere)
                 return;
             }
             ++lit;
-            // Reflected 199 times: F^199, which is below 1e-9 but for n sine >
-            // 0.999.
+            // Reflected 199 times: F^199, which is below 1e-9 except for n sine > 0.999.
             if (all.empty() && n * sine > 0.999) return;
             ASSERT_EQ(all.size(), 1u);
             for (int i = 0; i < 3; ++i)
@@ -70,7 +71,7 @@ TEST(GlassRoomsBySample, OutOfGlassTheSkyIsEtaSquaredBrighterOrNotThere)
     EXPECT_GT(lit, 2000);
 }
 
-// Of k edges, the last of which leaves: n^2 Le (1 - F) F^(k-2).
+// With k edges, the last of which leaves the glass: n^2 Le (1 - F) F^(k-2).
 TEST_P(GlassRooms, TheSkyOutOfGlassAfterEachNumberOfReflections)
 {
     const scenes::Scene scene = transport_test::our_scene("camera_in_glass_furnace");
@@ -87,13 +88,13 @@ TEST_P(GlassRooms, TheSkyOutOfGlassAfterEachNumberOfReflections)
                 return n * n * *scene.environment * (1.0 - f) * std::pow(f, k - 2);
             });
         SCOPED_TRACE(std::to_string(k) + " edges");
-        // Two edges are nearly sure, three a matter of 4 to 10 per cent of the samples.
+        // Most samples have two edges, and 4 to 10 percent have three.
         transport_test::expect_picture(batches[static_cast<std::size_t>(k)], known,
                                        GetParam().bias(k == 2 ? 0.01 : 0.1));
     }
 }
 
-// Roulette on long ways through glass: together it is n^2 Le again.
+// Roulette on long walks through glass: the sum over all lengths is n^2 Le again.
 TEST_P(GlassRooms, AllTheSkyComesOutOfGlassInTheEnd)
 {
     const scenes::Scene scene = transport_test::our_scene("camera_in_glass_furnace");
@@ -108,8 +109,8 @@ TEST_P(GlassRooms, AllTheSkyComesOutOfGlassInTheEnd)
                                                              return Rgb(0.0);
                                                          return n * n * *scene.environment;
                                                      });
-    // The pixels through which the critical angle passes are known as well as 8 x 8 points tell: to a
-    // thousandth of the whole.
+    // The pixels that contain the critical angle are known only to the accuracy of 8 x 8 points: a
+    // thousandth of the whole picture.
     transport_test::expect_picture(batches, known, GetParam().bias(0.01), 1);
 }
 
@@ -169,7 +170,7 @@ TEST_P(GlassRooms, ASphereInsideGlassLightsThePlaneLikeAPoint)
                      (1.0 - transport_test::reflectance(s / ball.radius, 1.0, n)) * apparent_radius *
                      apparent_radius / steps;
     }
-    EXPECT_NEAR(intensity, 0.1204983530, 1e-8); // as in the scene's head
+    EXPECT_NEAR(intensity, 0.1204983530, 1e-8); // as in the comment at the head of the scene
 
     const auto batches = transport_test::estimate(
         world, GetParam().integrator,
@@ -192,15 +193,15 @@ TEST_P(GlassRooms, ASphereInsideGlassLightsThePlaneLikeAPoint)
                        radiance * to_lamp.z / (d * d * d);
             });
         SCOPED_TRACE(std::to_string(k) + " edges");
-        // Of the walks from the plane, a few in a hundred find the sphere in the ball.
+        // A few percent of the walks from the plane find the sphere in the ball.
         transport_test::expect_picture(batches[static_cast<std::size_t>(k)], known,
                                        GetParam().bias(k == 2 ? 0.03 : 0.18), k == 2 ? 1 : 2);
     }
     for (const auto& batch : batches[1]) EXPECT_EQ(batch, images::Image(width, height));
 }
 
-// Seen through the boundary, the sphere inside is L / n^2 in every sample that is not reflected, and
-// seen by no line that passes the centre beyond n a.
+// Seen through the boundary, the sphere inside has radiance L / n^2 in every sample that is not
+// reflected. A line that passes the centre at more than n a does not see it.
 TEST(GlassRoomsBySample, ASphereInsideGlassIsSeenMagnifiedAndDimmed)
 {
     const scenes::Scene scene = transport_test::our_scene("light_in_glass");
@@ -222,8 +223,9 @@ TEST(GlassRoomsBySample, ASphereInsideGlassIsSeenMagnifiedAndDimmed)
     EXPECT_GT(seen_samples, 100);
 }
 
-// Nothing but the light image finds a point in glass; who has none must show black. With it, the plane
-// at 3 and 4 edges is lit by (1 - F) I and (1 - F) F I: straight out, and out after one reflection.
+// Only the light image finds a point light in glass; an integrator without it must give a black
+// picture. With it, the plane at 3 and 4 edges is lit by (1 - F) I and (1 - F) F I: light that leaves
+// at once, and after one reflection.
 TEST_P(GlassRooms, APointInsideGlassLightsThePlaneForTheLightImageAlone)
 {
     const scenes::Scene scene = transport_test::our_scene("point_in_glass");

@@ -1,4 +1,4 @@
-// The sky, which is hit by eye walks and chosen by light walks.
+// The sky, which eye walks hit and light walks choose.
 
 #include "ref/transport/bdpt.h"
 #include "tests/ref/transport/estimate.h"
@@ -15,8 +15,8 @@ using ref::Rgb;
 using ref::Vec3;
 constexpr double pi = std::numbers::pi;
 
-// An empty scene has no extent for light from infinity to shine on: the eye sees the sky by hitting it,
-// and no walk begins there.
+// An empty scene has no extent that light from infinity could reach: the eye sees the sky by hitting
+// it, and no light walk starts there.
 TEST(Infinity, AnEmptySceneShowsTheSky)
 {
     scenes::Scene scene;
@@ -31,9 +31,9 @@ TEST(Infinity, AnEmptySceneShowsTheSky)
     for (const Contribution& c : out) EXPECT_EQ(c.weight * c.value, *scene.environment);
 }
 
-// With a black ball behind the eye it can be chosen, too, and seen as a light image of one vertex: a hit
-// has the density 1 / (A c^3), a choice 1 / (4 pi). For a picture of 1.86 sr seen by way of both, every
-// share is known: c^-3 / (c^-3 + A / (4 pi)).
+// With a black ball behind the eye the sky can also be chosen, and seen as a light image of one
+// vertex. A hit has the density 1 / (A c^3), a choice 1 / (4 pi). For a picture of 1.86 sr found by
+// both strategies, every weight is known: c^-3 / (c^-3 + A / (4 pi)).
 TEST(Infinity, TheSkyIsHitAndChosenWithTheirShares)
 {
     scenes::Scene scene;

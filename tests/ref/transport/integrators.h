@@ -1,6 +1,6 @@
 #pragma once
 
-// The integrators that every scene with a known picture is tried on.
+// The integrators that are tested on every scene with a known picture.
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
@@ -16,8 +16,8 @@ namespace transport_test {
 struct NamedIntegrator {
     const char* name;
     ref::Integrator integrator;
-    bool light_image; // joins walks from the light to the eye (t = 1)
-    // A costly integrator takes fewer samples, and is held to a lower power for that.
+    bool light_image; // joins light walks to the eye (t = 1)
+    // A costly integrator takes fewer samples, and its test is required to have less power.
     int fewer = 1;
     double weaker = 1.0;
 
@@ -30,14 +30,14 @@ inline void PrintTo(const NamedIntegrator& named, std::ostream* out)
     *out << named.name;
 }
 
-/// Those that find every path that can be found, but for what `light_image` says.
+/// The integrators that find every path, except that those without `light_image` miss the light image.
 inline auto integrators()
 {
     return testing::Values(NamedIntegrator{"path", ref::trace_path, false},
                            NamedIntegrator{"bidirectional", ref::trace_bidirectionally, true, 4, 3.0});
 }
 
-/// The one that finds only paths whose vertex next to the eye is neither a mirror nor glass.
+/// Light tracing: finds only paths whose vertex next to the eye is neither a mirror nor glass.
 inline auto light_tracer()
 {
     return testing::Values(NamedIntegrator{"light", ref::trace_light, true, 2, 4.0});
@@ -48,7 +48,7 @@ inline std::string name_of(const testing::TestParamInfo<NamedIntegrator>& info)
     return info.param.name;
 }
 
-/// A test of each of them: GetParam().integrator is under test.
+/// The base of tests that run for each integrator; GetParam().integrator is under test.
 class OfEveryIntegrator : public testing::TestWithParam<NamedIntegrator> {};
 
 } // namespace transport_test

@@ -1,7 +1,7 @@
 #pragma once
 
-// Geometrical optics from first principles, out of a scene's plain data: what closed forms are made of.
-// Nothing of ref/ but the layout of its numbers takes part, so that no mistake can cancel.
+// Geometrical optics from first principles, on the plain data of a scene: the parts of closed forms.
+// It uses no code of ref/, only the layout of its numbers, so that no mistake can cancel.
 
 #include "scenes/scene.h"
 #include "tests/ref/transport/estimate.h"
@@ -27,7 +27,7 @@ struct Line {
     Vec3 direction; // of unit length
 };
 
-/// What the camera sees through the film point (x, y), in pixels from the top left.
+/// The line from the camera through the film point (x, y), in pixels from the top left.
 inline Line camera_line(const scenes::Camera& camera, int width, int height, double x, double y)
 {
     const double span = 2.0 * std::tan(camera.fov / 2.0);
@@ -43,7 +43,7 @@ struct Seen {
     Vec3 normal; // geometric, of unit length
 };
 
-/// Distances along `line` at which it passes through a sphere; none if it misses.
+/// The distances along `line` at which it crosses a sphere; nullopt if it misses.
 inline std::optional<std::array<double, 2>> crossings(const scenes::Sphere& sphere, const Line& line)
 {
     const Vec3 to_center = sphere.center - line.from;
@@ -54,8 +54,9 @@ inline std::optional<std::array<double, 2>> crossings(const scenes::Sphere& sphe
     return std::array{middle - half, middle + half};
 }
 
-/// The first surface along `line`, `from` excepted by 1e-9 (scenes here are of unit size). Rounding
-/// decides within some 1e-15 of an edge, where the answer may differ from that of ref/.
+/// The first surface along `line`, at a distance of more than 1e-9 from its start (scenes here are of
+/// unit size). Within about 1e-15 of an edge rounding decides, and the answer may differ from that of
+/// ref/.
 inline std::optional<Seen> first_seen(const scenes::Scene& scene, const Line& line)
 {
     constexpr double nearest = 1e-9;
@@ -107,8 +108,8 @@ inline Line reflected(const Line& line, const Seen& seen)
     return {seen.point, line.direction - 2.0 * glm::dot(line.direction, seen.normal) * seen.normal};
 }
 
-/// Fresnel's reflectance of a boundary from index `n1` to `n2`, by the angles [Born & Wolf 1999,
-/// sec. 1.5.2, eq. 21 and 21a]; `sine` is that of incidence.
+/// Fresnel's reflectance of a boundary from index `n1` to `n2`, from the angles [Born & Wolf 1999,
+/// sec. 1.5.2, eq. 21 and 21a]; `sine` is that of the angle of incidence.
 inline double reflectance(double sine, double n1, double n2)
 {
     if (n1 * sine >= n2) return 1.0;
@@ -120,8 +121,8 @@ inline double reflectance(double sine, double n1, double n2)
     return (perpendicular * perpendicular + parallel * parallel) / 2.0;
 }
 
-/// The line that `line` becomes behind the boundary at `seen`, from index `n1` to `n2` [Snell]. Total
-/// reflection is the caller's to exclude.
+/// The continuation of `line` behind the boundary at `seen`, from index `n1` to `n2` [Snell]. The
+/// caller must exclude total reflection.
 inline Line refracted(const Line& line, const Seen& seen, double n1, double n2)
 {
     const Vec3 along = line.direction - glm::dot(line.direction, seen.normal) * seen.normal;
@@ -131,9 +132,9 @@ inline Line refracted(const Line& line, const Seen& seen, double n1, double n2)
             sines + std::copysign(cosine, glm::dot(line.direction, seen.normal)) * seen.normal};
 }
 
-/// Irradiance per radiance at a point with unit normal `n` from a polygon all of which is above its
-/// horizon [Lambert 1760]: half the sum over its edges of the angle that an edge subtends, times the
-/// cosine between n and the normal of the plane through edge and point.
+/// The irradiance per radiance, at a point with unit normal `n`, from a polygon that is wholly above
+/// its horizon [Lambert 1760]: half the sum, over its edges, of the angle that an edge subtends times
+/// the cosine between n and the normal of the plane through the edge and the point.
 inline double polygon_irradiance(const Vec3& point, const Vec3& n, const std::vector<Vec3>& corners)
 {
     double sum = 0.0;
@@ -147,23 +148,23 @@ inline double polygon_irradiance(const Vec3& point, const Vec3& n, const std::ve
     return std::abs(sum) / 2.0;
 }
 
-/// Irradiance per radiance from a luminous sphere wholly above the horizon.
+/// The irradiance per radiance from a luminous sphere wholly above the horizon.
 inline double sphere_irradiance(const Vec3& point, const Vec3& n, const Vec3& center, double radius)
 {
     const double d = glm::length(center - point);
     return pi * radius * radius * glm::dot(n, center - point) / (d * d * d);
 }
 
-/// A picture known in advance, but for some pixels.
+/// A picture in closed form; some pixels are left out.
 struct KnownPicture {
     images::Image radiance;
-    std::vector<std::size_t> pixels; // known all over
+    std::vector<std::size_t> pixels; // the pixels that are known
 };
 
-/// What a line from the eye brings; none where that is not known.
+/// The radiance along a line from the eye; nullopt where it is unknown.
 using LineRadiance = std::function<std::optional<Rgb>(const Line&)>;
 
-/// `radiance` integrated over each pixel with 8 x 8 points. A pixel is known if all of these are.
+/// `radiance` integrated over each pixel with 8 x 8 points. A pixel is known if all of its points are.
 inline KnownPicture known_picture(const scenes::Camera& camera, int width, int height,
                                   const LineRadiance& radiance)
 {
@@ -194,9 +195,9 @@ inline double mean_over(const images::Image& image, std::span<const std::size_t>
     return sum / static_cast<double>(pixels.size());
 }
 
-/// Compares the means over all known pixels and over `strata` groups of similar brightness with what
-/// they should be: a factor shows in the whole, a wrong falloff in the groups. Groups of no light are
-/// left to exact tests. The groups are held to `specification` times the root of their number.
+/// Compares the means over all known pixels, and over `strata` groups of similar brightness, with the
+/// expected values: a wrong factor changes the whole, a wrong falloff the groups. Groups without light
+/// are left to exact tests. For groups, `specification` is multiplied by the root of their number.
 inline void expect_picture(const Batches& batches, KnownPicture known, double specification,
                            std::size_t strata = 4)
 {
@@ -223,8 +224,8 @@ inline void expect_picture(const Batches& batches, KnownPicture known, double sp
     }
 }
 
-/// Hands every one of `samples` samples per pixel to `judge`, with the line from the eye on which it
-/// lies.
+/// Calls `judge` for each of `samples` samples per pixel, with the line from the eye through its film
+/// point.
 inline void
 for_every_sample(const ref::World& world, ref::Integrator integrator, const ref::PathOptions& options,
                  std::uint32_t samples,

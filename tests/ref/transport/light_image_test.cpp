@@ -1,4 +1,4 @@
-// Where light walks fall on the film, and by what they are divided.
+// The place of splats on the film, and their division.
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/render.h"
@@ -23,8 +23,8 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Splats,
                              return name.param == &ref::trace_light ? "light" : "bdpt";
                          });
 
-// The mean radiance of a picture does not depend on the number of its pixels; nor does that of a part
-// that another shape of the picture shows as well. Splats divided by the wrong number would show here.
+// The mean radiance of a picture does not depend on its number of pixels; nor does that of a part that
+// another aspect ratio shows as well. Splats divided by the wrong number fail here.
 TEST_P(Splats, HaveTheSameScaleInEverySizeAndShape)
 {
     const scenes::Scene scene = transport_test::our_scene("cornell_diffuse"); // horizontal field of view
@@ -44,8 +44,8 @@ TEST_P(Splats, HaveTheSameScaleInEverySizeAndShape)
     transport_test::expect_equal_means(strip, tall, 0.06);
 }
 
-// Every pixel, to the edges: a constant picture, of four edges in the integrating sphere, has no dark
-// rim.
+// Every pixel, up to the edges: a constant picture, of four edges in the integrating sphere, has no
+// dark border.
 TEST(LightImage, ReachesTheEdgesOfTheFilm)
 {
     const scenes::Scene scene = transport_test::our_scene("integrating_sphere");
@@ -64,8 +64,8 @@ TEST(LightImage, ReachesTheEdgesOfTheFilm)
         transport_test::expect_mean(transport_test::measure(batches, rim, 0), expected, 0.2);
 }
 
-// A film is the same to the last bit whatever the number of threads, and whether it was rendered at once
-// or in two parts: splats cross tiles, and 40 x 24 pixels are six of them.
+// A film is the same to the last bit for any number of threads, and whether it was rendered at once or
+// in two parts: splats cross tiles, and 40 x 24 pixels are six tiles.
 TEST_P(Splats, FallInTheSameOrderWhateverTheThreads)
 {
     const scenes::Scene scene = transport_test::our_scene("cornell_glass");
@@ -88,8 +88,7 @@ TEST_P(Splats, FallInTheSameOrderWhateverTheThreads)
     EXPECT_FALSE(one.mean() == images::Image(40, 24));
 }
 
-// The renderer and a plain sum over the contributions are the same picture, up to the order of
-// summation.
+// The picture of the renderer equals a plain sum over the contributions, up to the order of summation.
 TEST_P(Splats, AreDividedBySamplesPerPixelOnce)
 {
     const scenes::Scene scene = transport_test::our_scene("cornell_diffuse");

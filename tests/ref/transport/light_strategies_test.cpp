@@ -1,7 +1,7 @@
-// The strategies that need a light walk, (s, 1) and (s, t) with s, t >= 2, each by itself and
-// unweighted: on scenes where it can make every path of s + t - 1 edges its mean is all light of that
-// length, as the path tracer finds it. Every comparison prints which bias it would have found with a
-// power of 99%.
+// The strategies that need a light walk, (s, 1) and (s, t) with s, t >= 2, each alone and unweighted.
+// On scenes where such a strategy can make every path of s + t - 1 edges, its mean is all light of
+// that length, equal to that of the path tracer. Every comparison prints the bias that it would detect
+// with a power of 99%.
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
@@ -25,18 +25,18 @@ constexpr int longest = 5;
 constexpr int width = 16;
 constexpr int height = 16;
 
-/// The relative bias of a tile's mean that is found at least: of the light image, and of inner
+/// The relative bias of a tile's mean that must be detectable: for the light image, and for inner
 /// connections.
 struct Power {
     double light_image, inner;
 };
 
-/// PLUMBLINE_LONG multiplies the samples by `longer`: a quarter of an hour in all. What is known then is
-/// as much better as its square root says, but for connections in corners, which have no variance to
-/// speak of.
+/// PLUMBLINE_LONG multiplies the samples by `longer`: a quarter of an hour in total. The detectable
+/// bias then shrinks with the square root, except for connections in corners, whose variance is not
+/// finite.
 struct Case {
     const char* name;
-    int batch_size; // samples per pixel of each of 64 batches; of path and light tracing four times that
+    int batch_size; // samples per pixel of each of 64 batches; for path and light tracing times 4
     int edges;      // the longest paths compared
     Power power;
     int longer;
@@ -53,7 +53,7 @@ scenes::Scene scene_of(const std::string& name)
     if (name == "rounded_room_lamp") return transport_test::rounded_room(true);
     if (name == "rounded_room_point") return transport_test::rounded_room(false);
     scenes::Scene scene = transport_test::our_scene(name);
-    if (name == "furnace_grey") { // all spheres grey: nothing is delta, and more than two edges matter
+    if (name == "furnace_grey") { // all spheres grey: no delta material; long paths matter
         for (auto& sphere : scene.spheres) {
             sphere.material = scene.spheres[0].material;
             sphere.center.x /= 4.0;
@@ -64,7 +64,7 @@ scenes::Scene scene_of(const std::string& name)
     return scene;
 }
 
-/// The bias that the comparison of two means finds with a power of 99%, relatively.
+/// The relative bias that the comparison of two means detects with a power of 99%.
 double detectable(const Measured& a, const Measured& b)
 {
     return transport_test::detectable_bias(std::hypot(a.standard_error, b.standard_error),

@@ -1,4 +1,5 @@
-// Scenes around one luminaire: what it lights, what it must not light, and how it is seen itself.
+// Scenes around one luminaire: the surfaces that it lights, those that it must not light, and its own
+// appearance.
 
 #include "tests/ref/transport/integrators.h"
 #include "tests/ref/transport/known_light.h"
@@ -27,9 +28,10 @@ int by_edges(const Contribution& c)
     return edges(c);
 }
 
-/// The luminaire of a scene that has one convex flat one of two triangles, which share a diagonal.
+/// The luminaire of a scene with exactly one, a convex planar quadrangle of two triangles that share a
+/// diagonal.
 struct Quadrangle {
-    std::vector<Vec3> corners; // in the order of the first triangle, the other's corner put between
+    std::vector<Vec3> corners; // those of the first triangle, in order, with the other's corner inserted
     Vec3 center;
     Vec3 normal;
     Rgb radiance;
@@ -49,7 +51,7 @@ Quadrangle luminaire_of(const scenes::Scene& scene)
                  std::get<scenes::Emission>(scene.materials[lit[0]->material]).radiance};
     for (const Vec3& v : lit[1]->vertices)
         if (std::find(a.begin(), a.end(), v) == a.end()) {
-            // Between the two corners that it is no diagonal away from: opposite the remaining one.
+            // Inserted between the two ends of the diagonal, opposite the remaining corner.
             for (std::size_t i = 0; i < 3; ++i) {
                 const auto& b = lit[1]->vertices;
                 if (std::find(b.begin(), b.end(), a[i]) == b.end())
@@ -68,8 +70,8 @@ Rgb sum_of(const std::vector<Contribution>& contributions)
     return sum;
 }
 
-// The eye sees the plane, which is lit before the light and dark behind it, and the light's back, which
-// is black.
+// The eye sees the plane, which is lit in front of the light and dark behind it, and the back of the
+// light, which is black.
 TEST_P(LuminaireScene, AnAreaLightShinesForwardsOnly)
 {
     const scenes::Scene scene = transport_test::our_scene("area_light_over_plane");
@@ -112,7 +114,7 @@ TEST(LuminaireSceneBySample, BehindAnAreaLightItIsDark)
     EXPECT_GT(back, 100);
 }
 
-// A card just below the luminaire: umbra and full light are known, what lies between is left open.
+// A card just below the luminaire: umbra and full light are known, the penumbra is left out.
 TEST_P(LuminaireScene, ACardCloseToALuminaireCastsItsShadow)
 {
     const scenes::Scene scene = transport_test::our_scene("near_occluder");
@@ -154,8 +156,8 @@ TEST(LuminaireSceneBySample, NothingLeaksPastACardCloseToALuminaire)
     EXPECT_GT(umbra, 500);
 }
 
-// The luminaire looks up from a bowl: paths of two edges light the ceiling and the bowl's inside, and
-// longer ones the whole room.
+// The luminaire faces up from a bowl: paths of two edges light the ceiling and the inside of the bowl,
+// and longer paths the whole room.
 TEST(LuminaireSceneBySample, ACeilingLampLightsNothingElseDirectly)
 {
     const scenes::Scene scene = transport_test::our_scene("ceiling_lamp");
@@ -208,7 +210,7 @@ TEST_P(LuminaireScene, ACeilingLampLightsTheCeilingDirectly)
     transport_test::expect_picture(batches[2], known, GetParam().bias(0.03), 1);
 }
 
-// All light in the first room has come through the slit, after a bounce behind it.
+// All light in the first room has passed through the slit, after a bounce behind it.
 TEST(LuminaireSceneBySample, BehindADoorThatIsAjarThereIsNoDirectLight)
 {
     const scenes::Scene scene = transport_test::our_scene("door_ajar");
@@ -236,8 +238,8 @@ TEST(LuminaireSceneBySample, BehindADoorThatIsAjarThereIsNoDirectLight)
     EXPECT_GT(indirectly_lit, 20);
 }
 
-// The luminaire of a Cornell box is L where the eye sees it, and 0.9 L where the mirror shows it: in
-// every sample, nothing more and nothing less.
+// The luminaire of a Cornell box has radiance L where the eye sees it, and 0.9 L in the mirror: in
+// every sample, exactly.
 TEST(LuminaireSceneBySample, ALuminaireIsAsBrightAsItSaysAndInAMirrorAsThatReflects)
 {
     const scenes::Scene scene = transport_test::our_scene("cornell_glass");

@@ -1,5 +1,5 @@
-// The same light in other clothes: how a picture must change when its scene is scaled, moved,
-// brightened, reordered or cut into pieces.
+// Metamorphic tests: how a picture must change when its scene is scaled, moved, brightened, reordered
+// or divided into pieces.
 
 #include "tests/ref/transport/changed_scene.h"
 #include "tests/ref/transport/contributions.h"
@@ -40,7 +40,7 @@ scenes::Scene brightened(scenes::Scene scene, double factor)
     return scene;
 }
 
-/// All primitives in the opposite order; lamps first and in their old order if `lamps_stay`.
+/// All primitives in reverse order; with `lamps_stay`, the lamps come first and in their old order.
 scenes::Scene reversed(scenes::Scene scene, bool lamps_stay)
 {
     const auto reverse = [&](auto& primitives) {
@@ -57,7 +57,7 @@ scenes::Scene reversed(scenes::Scene scene, bool lamps_stay)
     return scene;
 }
 
-/// Each emissive triangle as four, split at the middles of its edges.
+/// Splits each emissive triangle into four, at the middles of its edges.
 scenes::Scene with_lamps_in_pieces(scenes::Scene scene)
 {
     std::vector<scenes::Triangle> triangles;
@@ -89,7 +89,8 @@ protected:
                                              static_cast<std::uint32_t>(named.samples(16000)));
     }
 
-    /// Means of the whole picture are equal. The cost is about the same for every integrator.
+    /// Tests that the means of the whole picture are equal. The cost is about the same for every
+    /// integrator.
     void expect_same_picture(const scenes::Scene& changed) const
     {
         const auto render = [&](const scenes::Scene& of, std::uint64_t seed) {
@@ -121,9 +122,9 @@ INSTANTIATE_TEST_SUITE_P(LightTracer, Metamorphic,
                                           transport_test::light_tracer()),
                          scene_and_integrator);
 
-// By a power of two nothing is rounded differently: not a bit may change. Any absolute constant, be it
-// 1e-12, would show; and so would a product of four lengths, beyond 2^256, or of the densities of many
-// vertices.
+// Scaling by a power of two changes no rounding, so no bit may change. Any absolute constant, even
+// 1e-12, would change bits; so would a product of four lengths, beyond 2^256, or of the densities of
+// many vertices.
 TEST_P(Metamorphic, ScalingByAPowerOfTwoChangesNoBit)
 {
     const auto original = samples(scene);
@@ -133,7 +134,7 @@ TEST_P(Metamorphic, ScalingByAPowerOfTwoChangesNoBit)
             << "2^" << exponent;
 }
 
-// A path of 50 edges has 51 densities, each per area: their product would be 2^51200 at this scale.
+// A path of 50 edges has 51 densities, each per area: at this scale their product would be 2^51200.
 TEST(Metamorphic, LongPathsWeighTheSameAtAnyScale)
 {
     for (const bool lamp : {false, true}) {
@@ -153,11 +154,12 @@ TEST(Metamorphic, LongPathsWeighTheSameAtAnyScale)
     }
 }
 
-// By other factors every coordinate is rounded anew, by one part in 1e16; a curved surface magnifies the
-// change of a path by at most about 2 x distance / radius < 10 per bounce: 1e5 over the five bounces of
-// six edges, 1e-11. A path may consist of two walks, and its weight is a quotient of products of all its
-// factors: 1e-7 leaves four digits. A branch taken otherwise (probability 1e-11 a sample) would show as
-// another number of contributions; over 1e4 samples none is expected.
+// With other factors every coordinate is rounded anew, by one part in 1e16. A curved surface magnifies
+// the change of a path by at most about 2 x distance / radius < 10 per bounce: 1e5 over the five
+// bounces of six edges, which gives 1e-11. A path may consist of two walks, and its weight is a
+// quotient of products of all its factors: 1e-7 leaves four digits of margin. If a sample took another
+// branch (probability 1e-11 per sample), the number of contributions would differ; over 1e4 samples
+// none is expected.
 TEST_P(Metamorphic, ScalingByAnyFactorChangesNothingButRounding)
 {
     const auto original = samples(scene);
@@ -165,9 +167,10 @@ TEST_P(Metamorphic, ScalingByAnyFactorChangesNothingButRounding)
     EXPECT_EQ(different(original, samples(scaled(scene, 1e-3)), 1e-7), 0U);
 }
 
-// 1e4 diameters away coordinates are known to 1e-12 diameters; times 1e5 as above, 1e-7. In corners,
-// where two vertices of a connection come close, that is magnified once more, by (diameter / d): of the
-// bidirectional contributions one in a thousand may differ by more than 1e-5.
+// At a distance of 1e4 diameters coordinates are known to 1e-12 diameters; times 1e5 as above, this
+// gives 1e-7. In corners, where the two vertices of a connection are close, it is magnified once more,
+// by (diameter / d): one in a thousand of the bidirectional contributions may differ by more than
+// 1e-5.
 TEST_P(Metamorphic, MovingFarAwayChangesNothingButRounding)
 {
     const double diameter = ref::Geometry(scene).diagonal();
@@ -184,14 +187,14 @@ TEST_P(Metamorphic, TwiceTheRadianceIsTwiceThePicture)
     EXPECT_EQ(different(original, samples(brightened(scene, 2.0)), 0.0), 0U);
 }
 
-// The order of what does not shine decides nothing at all, not even between surfaces that share an edge:
-// a ray meets each of them by itself.
+// The order of primitives that do not emit changes nothing, not even between surfaces that share an
+// edge: a ray is tested against each of them independently.
 TEST_P(Metamorphic, TheOrderOfDarkPrimitivesChangesNoBit)
 {
     EXPECT_EQ(different(samples(scene), samples(reversed(scene, true)), 0.0), 0U);
 }
 
-// That of lamps decides which random number chooses which: the mean is the same.
+// The order of lamps decides which random number chooses which lamp: only the mean is the same.
 TEST_P(Metamorphic, TheOrderOfLampsIsIrrelevant)
 {
     expect_same_picture(reversed(scene, false));

@@ -14,7 +14,7 @@ using transport_test::Line;
 constexpr int width = 36;
 constexpr int height = 24;
 
-/// What the scene's data say, and what a line from the eye brings at each length.
+/// The data of the scene, and the radiance along a line from the eye for each length.
 class MirrorImage : public transport_test::OfEveryIntegrator {
 protected:
     const scenes::Scene scene = transport_test::our_scene("mirror_image");
@@ -34,7 +34,7 @@ protected:
         return transport_test::albedo_at(scene, seen) / transport_test::pi * radiance *
                transport_test::sphere_irradiance(seen.point, {0.0, 0.0, 1.0}, center, lamp.radius);
     }
-    /// Whether the sphere might stand between `p` and some part of its own image: their cones overlap.
+    /// Whether the sphere may be between `p` and some part of its own image: their cones overlap.
     [[nodiscard]] bool hides_its_image(const Vec3& p) const
     {
         const double d = glm::length(lamp.center - p);
@@ -70,7 +70,8 @@ TEST_P(MirrorImage, EachLengthIsKnown)
         world, GetParam().integrator,
         {.batches = 32, .batch_size = GetParam().samples(24), .path = {.seed = 51, .max_edges = 7}},
         longest + 2, [](const Contribution& c) { return std::min(edges(c), longest + 1); });
-    // Light by way of the mirror is a caustic, found by hitting the sphere alone.
+    // Light that reaches the surface by way of the mirror is a caustic, found only by hitting the
+    // sphere.
     constexpr std::array specification = {0.0, 0.04, 0.04, 0.4, 0.5};
     for (int k = 1; k <= longest; ++k) {
         SCOPED_TRACE(std::to_string(k) + " edges");

@@ -1,6 +1,6 @@
-// The oracle of paths: for random complete paths in random small scenes the density of every strategy,
-// every weight and every contribution against path_oracle.h, which shares nothing with ref/ but the
-// scene.
+// The path oracle: for random complete paths in random small scenes, the density of every strategy,
+// every weight and every contribution are compared with path_oracle.h, which shares only the scene
+// with ref/.
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/mis_weight.h"
@@ -60,15 +60,15 @@ ref::Path path_of(std::span<const Vertex> y, std::span<const Vertex> z)
     return x;
 }
 
-/// The relative difference that rounding may make: both sides start from the same places and do some
-/// 100 operations at each of at most 10 vertices, a roundoff each; `condition` is how much a roundoff at
-/// a vertex can grow.
+/// The relative difference that rounding may cause: both sides start from the same positions and do
+/// some 100 operations at each of at most 10 vertices, with one roundoff each; `condition` bounds the
+/// growth of a roundoff at a vertex.
 double tolerance(const Judgement& judgement)
 {
     return 1024.0 * 0x1p-53 * judgement.condition;
 }
 
-/// Paths that are worse known than this are left out; see the count at the end of the properties.
+/// Paths with a larger condition than this are left out; see the count at the end of the properties.
 constexpr double worst_condition = 1e6;
 
 double expected_weight(const Judgement& judgement, std::size_t s, ref::Heuristic heuristic)
@@ -79,7 +79,7 @@ double expected_weight(const Judgement& judgement, std::size_t s, ref::Heuristic
     return 1.0 / sum;
 }
 
-/// Every weight of the path, and what they add up to.
+/// Checks every weight of the path, and their sum.
 void check_weights(const ref::World& world, ref::PathOptions options, const ref::Path& x,
                    const Judgement& judgement)
 {
@@ -90,7 +90,7 @@ void check_weights(const ref::World& world, ref::PathOptions options, const ref:
             const double weight = mis_weight(world, options, x, s);
             sum += weight;
             if (judgement.densities[s] == 0.0) {
-                RC_ASSERT(weight == 0.0); // exactly: it can not happen
+                RC_ASSERT(weight == 0.0); // exactly 0: the strategy is impossible
             } else {
                 const double expected = expected_weight(judgement, s, heuristic);
                 RC_ASSERT(std::abs(weight - expected) <= 4.0 * tolerance(judgement) * expected);
@@ -106,7 +106,7 @@ bool carries_light(const Judgement& judgement)
     return judgement.throughput != transport_test::Rgb(0.0);
 }
 
-/// All that two walks make, (s, t, pixel) by (s, t, pixel), from trace_bidirectionally itself.
+/// All contributions of two walks by (s, t, pixel), from trace_bidirectionally itself.
 using Key = std::tuple<int, int, std::uint32_t>;
 std::map<Key, ref::Contribution>
 contributions_of(const ref::World& world, const ref::PathOptions& options, const ref::SampleId& id)
@@ -116,12 +116,12 @@ contributions_of(const ref::World& world, const ref::PathOptions& options, const
     std::map<Key, ref::Contribution> result;
     for (const auto& c : all) {
         const bool first = result.emplace(Key{c.s, c.t, c.pixel}, c).second;
-        RC_ASSERT(first); // no strategy twice
+        RC_ASSERT(first); // each strategy at most once
     }
     return result;
 }
 
-/// y_0 of next event at z_{t-1}, drawn with the same numbers.
+/// The y_0 of next event at z_{t-1}, sampled with the same numbers.
 std::optional<Vertex> next_event_vertex(const ref::World& world, const ref::SampleId& id,
                                         std::span<const Vertex> z)
 {
@@ -134,8 +134,8 @@ std::optional<Vertex> next_event_vertex(const ref::World& world, const ref::Samp
     return surface_vertex(world, light->end, ref::Rgb(1.0));
 }
 
-/// What was compared: by strategy family, kind of emitter, and whether some delta vertex is passed one
-/// way by one possible strategy and the other way by another.
+/// Counts of the comparisons: by strategy family, by kind of emitter, and by whether one possible
+/// strategy passes some delta vertex in one direction and another strategy in the other.
 struct Tally {
     std::map<std::tuple<std::string, Place::Kind, bool>, long> compared;
     long decided = 0;
@@ -147,7 +147,8 @@ std::string family(int s, int t)
     return t == 1 ? "light image" : s == 0 ? "emission hit" : s == 1 ? "next event" : "inner connection";
 }
 
-/// Whether glass stands between the first and the last place at which light and eye walk can meet.
+/// Whether glass is between the first and the last place at which the light walk and the eye walk can
+/// be joined.
 bool glass_is_passed_both_ways(const ref::World& world, const Places& x, const Judgement& judgement)
 {
     std::size_t first = x.size();
@@ -165,8 +166,8 @@ bool glass_is_passed_both_ways(const ref::World& world, const Places& x, const J
     return false;
 }
 
-/// One way (s, t) of joining the two walks: is there a contribution exactly when the path can carry
-/// light, and is it f / p_s with the right weight?
+/// Checks one strategy (s, t) of joining the two walks: there is a contribution exactly when the path
+/// can carry light, and it is f / p_s with the right weight.
 void check_join(const ref::World& world, const PathOracle& oracle, const ref::PathOptions& options,
                 const ref::SampleId& id, std::map<Key, ref::Contribution>& made,
                 std::span<const Vertex> y, std::span<const Vertex> z, Tally& tally)
@@ -222,7 +223,7 @@ void check_join(const ref::World& world, const PathOracle& oracle, const ref::Pa
     check_weights(world, options, path_of(y, z), judgement);
 }
 
-/// All that `samples` pairs of walks make in the scene.
+/// Checks all contributions of `samples` pairs of walks in the scene.
 void check_scene(const scenes::Scene& scene, const ref::PathOptions& options, std::uint32_t samples,
                  Tally& tally)
 {
@@ -246,7 +247,7 @@ void check_scene(const scenes::Scene& scene, const ref::PathOptions& options, st
             for (std::size_t s = 2; s <= y.size() && s + t <= longest + 1; ++s)
                 check({y.data(), s}, eye);
         }
-        RC_ASSERT(made.empty()); // nothing that two walks can not give
+        RC_ASSERT(made.empty()); // no contribution that two walks cannot produce
     }
 }
 
@@ -261,8 +262,8 @@ RC_GTEST_PROP(MisWeight, EveryContributionIsThroughputOverDensityTimesItsShare, 
     check_scene(scene, options, 40, tally);
 }
 
-// The property above on three hundred scenes that are always the same, to know what it sees: every
-// family with every emitter that it can join, with and without glass that several strategies pass.
+// The property above on three hundred fixed scenes, to check its coverage: every family with every
+// emitter that it can join, with and without glass that several strategies pass.
 TEST(MisWeight, TheOracleMeetsEveryFamilyWithEveryEmitterAndGlass)
 {
     Tally tally;
@@ -279,7 +280,7 @@ TEST(MisWeight, TheOracleMeetsEveryFamilyWithEveryEmitterAndGlass)
                 const int t = s == 3 ? 1 : 2; // one (s, t) of each family
                 const bool can_be_hit = kind == Kind::surface || kind == Kind::environment;
                 if (s == 0 && !can_be_hit) continue;
-                if (glass && s == 3 && kind == Kind::directional) continue; // too rare; as the sky
+                if (glass && s == 3 && kind == Kind::directional) continue; // too rare, like the sky
                 const long count = tally.compared[{family(s, t), kind, glass}];
                 EXPECT_GE(count, glass ? 1 : 20)
                     << family(s, t) << ", emitter " << static_cast<int>(kind)
@@ -326,8 +327,8 @@ Vertex any_emitter_vertex(const ref::World& world)
     return infinity_vertex(emitter, *transport_test::any_direction(), one);
 }
 
-// Weights are a matter of the path alone: here it is thrown together from points of scattering surfaces
-// that no walk has chosen, in any number, seen or not.
+// Weights depend only on the path. Here the path is made of points of scattering surfaces that no walk
+// has sampled, in any number, visible to each other or not.
 RC_GTEST_PROP(MisWeight, AnyPointsMakeAPathWhoseWeightsAreTheDefinitions, ())
 {
     scenes::Scene scene = transport_test::any_scene();

@@ -1,4 +1,4 @@
-// The definitions: f(x) and p_s(x), vertex by vertex.
+// f(x) and p_s(x) by their definitions, vertex by vertex.
 
 #include "tests/ref/transport/path_oracle.h"
 
@@ -50,7 +50,7 @@ Vec3 PathOracle::normal(const Place& place) const
 
 double PathOracle::survival(const Place& place, std::size_t bounce) const
 {
-    if (!roulette_ || bounce < 5) return 1.0; // the first four bounces are free
+    if (!roulette_ || bounce < 5) return 1.0; // the first four bounces are without roulette
     double albedo = 0.0;
     if (const auto* l = std::get_if<scenes::Lambertian>(&material(place))) albedo = largest(l->albedo);
     if (const auto* m = std::get_if<scenes::Mirror>(&material(place))) albedo = largest(m->reflectance);
@@ -69,7 +69,7 @@ double PathOracle::fresnel_at(const Places& walk, std::size_t i) const
 {
     const double ior = std::get<scenes::Glass>(material(walk[i])).ior;
     const double cosine = glm::dot(normal(walk[i]), towards(walk[i], walk[i - 1]));
-    const double n = cosine > 0.0 ? ior : 1.0 / ior; // of the far side, relative to this one
+    const double n = cosine > 0.0 ? ior : 1.0 / ior; // of the far side, relative to the near side
     const double ci = std::abs(cosine);
     const double ct2 = 1.0 - (1.0 - ci * ci) / (n * n);
     if (ct2 <= 0.0) return 1.0;
@@ -122,7 +122,7 @@ bool PathOracle::can_join(const Places& x, std::size_t s) const
 {
     const std::size_t k = x.size() - 1;
     const bool can_be_hit = x[0].kind == Kind::surface || x[0].kind == Kind::environment;
-    if (s == 0 || k == 1) return can_be_hit; // no eye meets a point, nor sees one
+    if (s == 0 || k == 1) return can_be_hit; // a point light is neither hit nor seen
     return (s == 1 || scatters(x[s - 1])) && (s == k || scatters(x[s]));
 }
 
@@ -136,8 +136,8 @@ Judgement PathOracle::judge(const Places& x) const
             can_join(x, s) ? walk_density(x, s, false) * walk_density(backwards, k + 1 - s, true) : 0.0);
     }
 
-    // Flux is carried from the emitter to the eye, where it is measured across the ray:
-    // W_e cos = 1 / (A cos^3).
+    // Flux goes from the emitter to the eye, where it is measured across the ray: W_e cos = 1 / (A
+    // cos^3).
     const Vec3 to_emitter = towards(x[k], x[k - 1]);
     Rgb f = emitted(x[0], towards(x[0], x[1])) /
             (4.0 * tan_x_ * tan_y_ * std::pow(eye_cosine(to_emitter), 3));
@@ -164,9 +164,9 @@ Judgement PathOracle::judge(const Places& x) const
     }
     result.throughput = f;
 
-    // A direction is known to (size of coordinates) / (length of the edge) roundoffs, a cosine to that
-    // over itself; in glass the cosine of refraction, over its square; each delta vertex passes on what
-    // came before, magnified by the curvature that it meets.
+    // A direction has an error of (size of coordinates) / (length of the edge) roundoffs. A cosine has
+    // that error divided by itself; in glass, the cosine of refraction has it divided by its square.
+    // Each delta vertex passes on the earlier errors, magnified by the curvature of its surface.
     double size = 0.0;
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i <= k; ++i) {

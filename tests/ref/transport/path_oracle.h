@@ -1,9 +1,9 @@
 #pragma once
 
-// What a path is worth and how likely each strategy makes it, from the definitions and the scene alone:
-// slow, and with nothing of ref/. Delta vertices are not counted by any convention: a run of them
-// between two other vertices is one map from directions at one end to places at the other, and its
-// Jacobian is found by carrying derivatives along the rays [Igehy 1999].
+// The contribution of a path and the density of each strategy, computed from the definitions and the
+// scene alone: slow, and without any code of ref/. There is no convention for delta vertices: a run of
+// them between two other vertices is one map from directions at one end to positions at the other, and
+// its Jacobian is computed by propagating derivatives along the rays [Igehy 1999].
 
 #include "scenes/scene.h"
 
@@ -17,11 +17,11 @@ namespace transport_test {
 using scenes::Rgb;
 using scenes::Vec3;
 
-/// Where a vertex of a path is, and nothing else.
+/// The position of a path vertex, and nothing else.
 struct Place {
     enum class Kind { eye, surface, point, spot, directional, environment };
     Kind kind;
-    Vec3 position;       // of a directional light or the environment the unit direction towards it
+    Vec3 position;       // for a directional light or the environment, the unit direction towards it
     std::uint32_t index; // of the primitive or light, among all primitives or the lights of its kind
 };
 
@@ -34,7 +34,7 @@ inline bool is_infinite(const Place& place)
     return place.kind == Place::Kind::directional || place.kind == Place::Kind::environment;
 }
 
-/// The unit direction from a to b, at most one of them infinitely far away.
+/// The unit direction from a to b; at most one of them is infinitely far away.
 inline Vec3 towards(const Place& a, const Place& b)
 {
     if (is_infinite(b)) return b.position;
@@ -46,13 +46,14 @@ struct Judgement {
     /// f(x) [Veach 1997, eq. 8.7], for the mean radiance over a picture of one pixel: per solid angle of
     /// x_0 at infinity, per area of every vertex that is on a surface and not delta.
     Rgb throughput;
-    /// p_s(x) in the same measure for s = 0 ... k: the density with which eye and light walk make it.
+    /// p_s(x) in the same measure for s = 0 ... k: the density of the path for an eye walk and a light
+    /// walk.
     std::vector<double> densities;
-    /// By how much rounding of the places may be magnified in all this.
+    /// An upper bound on the magnification of the rounding of the positions in these numbers.
     double condition;
 };
 
-/// Six kinds of emitters, and how often each is chosen.
+/// The six kinds of emitters, and their selection probabilities.
 struct Share {
     Place::Kind kind;
     std::uint32_t index;
@@ -64,17 +65,17 @@ class PathOracle {
 public:
     PathOracle(const scenes::Scene& scene, int width, int height, bool roulette);
 
-    /// Whether light and eye walk can be joined between x_{s-1} and x_s; for s = 0, whether the eye walk
-    /// can run into x_0.
+    /// Whether a light walk and an eye walk can be joined between x_{s-1} and x_s; for s = 0, whether
+    /// the eye walk can hit x_0.
     [[nodiscard]] bool can_join(const Places& x, std::size_t s) const;
-    /// Of a path whose delta vertices reflect or refract: one that some strategy can make.
+    /// Evaluates a path whose delta vertices reflect or refract, so that some strategy can make it.
     [[nodiscard]] Judgement judge(const Places& x) const;
     [[nodiscard]] const std::vector<Share>& shares() const { return shares_; }
 
     enum class Answer { no, yes, undecided };
-    /// Whether anything stands between two places that are joined; left open within 1e-9 of an edge.
+    /// Whether a surface lies between two places that are joined; unknown within 1e-9 of an edge.
     [[nodiscard]] Answer blocked(const Place& a, const Place& b) const;
-    /// The pixel in which the eye sees the place, y * width + x, or -1; left open (-2) within 1e-9 of an
+    /// The pixel in which the eye sees the place, y * width + x, or -1; unknown (-2) within 1e-9 of an
     /// edge.
     [[nodiscard]] int pixel_of(const Place& place) const;
 
@@ -89,7 +90,7 @@ private:
     [[nodiscard]] double pdf_start(const Place& x0, const Vec3& w) const;
     struct Jacobian {
         double value;     // d xi_a / d xi_b
-        double condition; // by which roundoff grows from a to b
+        double condition; // the growth of roundoff from a to b
     };
     [[nodiscard]] Jacobian jacobian(const Places& walk, std::size_t a, std::size_t b) const;
     [[nodiscard]] double fresnel_at(const Places& walk, std::size_t i) const;

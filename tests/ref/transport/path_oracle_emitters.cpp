@@ -1,4 +1,4 @@
-// What emitters send out, and how light walks begin there.
+// The emission of emitters, and the start of light walks.
 
 #include "tests/ref/transport/path_oracle.h"
 
@@ -21,8 +21,9 @@ double mean(const Rgb& v)
     return (v.x + v.y + v.z) / 3.0;
 }
 
-/// Turns powers into probabilities: the unit interval has 2^24 cells. Each emitter with power takes one
-/// first; half of the others go by power, half equally, rounded where each emitter's part ends.
+/// Converts powers to probabilities: the unit interval has 2^24 cells. Each emitter with power gets
+/// one cell first; half of the others are given in proportion to power, half equally, and rounded at
+/// the borders between emitters.
 void share_out(std::vector<Share>& shares)
 {
     long double total = 0;
@@ -139,7 +140,8 @@ Rgb PathOracle::emitted(const Place& x0, const Vec3& w) const
     return Rgb(0.0);
 }
 
-/// Of the light walk's first direction w, per solid angle; from infinity, of its place on the disc.
+/// The density of the light walk's first direction w, per solid angle; from infinity, of its position
+/// on the disc.
 double PathOracle::pdf_start(const Place& x0, const Vec3& w) const
 {
     switch (x0.kind) {

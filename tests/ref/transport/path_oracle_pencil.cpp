@@ -1,4 +1,4 @@
-// What a run of mirrors and glass does to a narrow pencil of rays [Igehy 1999].
+// The effect of a run of mirrors and glass on a narrow pencil of rays [Igehy 1999].
 
 #include "tests/ref/transport/path_oracle.h"
 
@@ -44,10 +44,10 @@ Pencil constant(const Vec3& v)
 
 } // namespace
 
-/// d xi_a / d xi_b along the walk from a to b, all vertices between them delta: xi_a the direction at a
-/// (at infinity: the place on a plane across the light), xi_b the place on the surface of b (of a point:
-/// on a plane across the ray; at infinity: the direction). The values are those of the path, so that
-/// nothing drifts; only derivatives are carried.
+/// d xi_a / d xi_b along the walk from a to b, where all vertices between them are delta. xi_a is the
+/// direction at a (at infinity: the position on a plane across the light). xi_b is the position on the
+/// surface of b (for a point: on a plane across the ray; at infinity: the direction). The values are
+/// those of the path, so that no error accumulates; only the derivatives are propagated.
 PathOracle::Jacobian PathOracle::jacobian(const Places& walk, std::size_t a, std::size_t b) const
 {
     const Vec3 w = towards(walk[a], walk[a + 1]);
@@ -59,7 +59,7 @@ PathOracle::Jacobian PathOracle::jacobian(const Places& walk, std::size_t a, std
         from_infinity ? Pencil{walk[a + 1].position - w, across, other} : constant(walk[a].position);
     Pencil ray = from_infinity ? constant(w) : Pencil{w, across, other};
     double condition = 1.0;
-    // Where rays meet again, as behind a lens, the area is a small difference.
+    // Where rays meet again, as behind a lens, the area is a small difference of large numbers.
     const auto area = [&](const Pencil& end) {
         const double spanned = glm::length(glm::cross(end.du, end.dv));
         return Jacobian{1.0 / spanned, condition * glm::length(end.du) * glm::length(end.dv) / spanned};
@@ -67,7 +67,7 @@ PathOracle::Jacobian PathOracle::jacobian(const Places& walk, std::size_t a, std
 
     for (std::size_t i = a + 1; i <= b; ++i) {
         if (is_infinite(walk[i])) return area(ray);
-        // Where the rays meet the surface, to first order its tangent plane: n . (p - x) = 0.
+        // The rays meet the surface, to first order its tangent plane, where n . (p - x) = 0.
         const Vec3 n = walk[i].kind == Kind::surface ? normal(walk[i]) : ray.value;
         const Vec3 x = walk[i].position;
         const double t = glm::distance(x, origin.value);
@@ -90,9 +90,9 @@ PathOracle::Jacobian PathOracle::jacobian(const Places& walk, std::size_t a, std
         if (same_side(walk, i)) {
             ray = plus(ray, times({-2.0 * c.value, -2.0 * c.du, -2.0 * c.dv}, m));
         } else if (std::holds_alternative<scenes::Mirror>(
-                       material(walk[i]))) { // so grazing that it rounds
+                       material(walk[i]))) { // so close to grazing that it is rounded
             return {0.0, std::numeric_limits<double>::infinity()};
-        } else { // w' = e w + (sign c' - e c) n, c' the cosine on the other side
+        } else { // w' = e w + (sign c' - e c) n, where c' is the cosine on the other side
             const double ior = std::get<scenes::Glass>(material(walk[i])).ior;
             const double e = c.value < 0.0 ? 1.0 / ior : ior;
             const double sign = c.value < 0.0 ? -1.0 : 1.0;

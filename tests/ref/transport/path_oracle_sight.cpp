@@ -1,4 +1,4 @@
-// What stands between two places, and where the eye sees one.
+// The surfaces between two places, and the pixel where the eye sees a place.
 
 #include "tests/ref/transport/path_oracle.h"
 
@@ -33,7 +33,7 @@ PathOracle::Answer PathOracle::blocked(const Place& a, const Place& b) const
         return place.kind == Kind::surface && place.index == primitive;
     };
     for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i) {
-        if (on(near, i) || on(end, i)) continue; // a plane is met once, at the end
+        if (on(near, i) || on(end, i)) continue; // a line crosses a plane only once, here at the end
         const auto& v = scene_.triangles[i].vertices;
         const Vec3 h = glm::cross(d, v[2] - v[0]);
         const double det = glm::dot(v[1] - v[0], h);
@@ -50,7 +50,7 @@ PathOracle::Answer PathOracle::blocked(const Place& a, const Place& b) const
         const Vec3 o = near.position - sphere.center;
         const double dd = glm::dot(d, d);
         const double half = glm::dot(o, d) / dd;
-        if (on(near, index)) { // leaves it for good, or crosses its inside to t = -2 half
+        if (on(near, index)) { // leaves the sphere, or crosses its inside to t = -2 half
             const double other = -2.0 * half;
             const bool ends_there = on(end, index);
             if (std::abs(other) < margin)
@@ -60,7 +60,7 @@ PathOracle::Answer PathOracle::blocked(const Place& a, const Place& b) const
             continue;
         }
         const double product = (glm::dot(o, o) - sphere.radius * sphere.radius) / dd;
-        if (on(end, index)) { // one root is 1, the other is their product
+        if (on(end, index)) { // one root is 1, so the other is their product
             if (judge_margin(std::min(product, 1.0 - product))) return Answer::yes;
             continue;
         }

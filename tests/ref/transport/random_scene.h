@@ -1,6 +1,6 @@
 #pragma once
 
-// Small scenes at random: triangles and spheres, every material, every kind of emitter, a camera
+// Small random scenes: triangles and spheres, every material, every kind of emitter, a camera
 // anywhere, often with glass around it or around a light.
 
 #include "tests/ref/transport/generators.h"
@@ -36,11 +36,11 @@ inline bool any_chance(double probability)
     return *any_unit() < probability;
 }
 
-/// Materials of every scene below, by number; most surfaces scatter.
+/// Materials of every scene below, by number; most surfaces are Lambertian.
 enum : std::uint32_t { matte, grey, mirror, crown, water, lamp, glow };
 
 /// A scene with any of the six kinds of emitters. Glass spheres may overlap other surfaces: the walks
-/// take each boundary as it comes, and so must their densities.
+/// handle each boundary in turn, and so must their densities.
 inline scenes::Scene any_scene()
 {
     scenes::Scene scene;
@@ -71,7 +71,8 @@ inline scenes::Scene any_scene()
         else
             add_sphere(any_point(1.0), any_number(0.1, 0.7), any_surface());
     }
-    // Half of them in a closed room, where walks are long; the others on a floor, under sun and sky.
+    // Half of the scenes are closed rooms, where walks are long; the others have a floor under sun and
+    // sky.
     const bool closed = any_chance(0.5);
     if (closed) {
         add_sphere(scenes::Vec3(0.1, 0.0, -0.2), 3.0, any_chance(0.8) ? matte : crown);
@@ -108,7 +109,7 @@ inline scenes::Scene any_scene()
     if (!closed && any_chance(0.6)) scene.environment = 2.0 * any_colour();
 
     const scenes::Vec3 eye = any_point(1.0);
-    const scenes::Vec3 backward = // in the open mostly towards the middle
+    const scenes::Vec3 backward = // in open scenes mostly towards the middle
         closed || any_chance(0.3) ? *any_direction() : glm::normalize(eye + any_point(0.3));
     const scenes::Vec3 right = glm::normalize(glm::cross(scenes::Vec3(0.3, 0.8, -0.5), backward));
     scene.camera =

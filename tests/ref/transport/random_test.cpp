@@ -10,7 +10,7 @@ namespace {
 using ref::Event;
 using ref::uniforms;
 
-// The known answers that Random123 1.14 ships (kat_vectors): philox4x32, 10 rounds, all words 0.
+// The known answers of Random123 1.14 (kat_vectors): philox4x32, 10 rounds, all words 0.
 TEST(Random, IsPhiloxWithTenRounds)
 {
     const auto u = uniforms({.seed = 0, .pixel = 0, .sample = 0}, Event::camera);
@@ -26,8 +26,8 @@ RC_GTEST_PROP(Random, StaysInsideTheOpenUnitInterval, (std::uint64_t seed, std::
         RC_ASSERT(u > 0.0 && u < 1.0);
 }
 
-// Were any of them left out of the counter, two decisions would share their numbers (a correlation that
-// no picture shows).
+// If one of them were not part of the counter, two decisions would share their numbers (a correlation
+// that no picture shows).
 RC_GTEST_PROP(Random, DependsOnEverythingThatNamesADecision,
               (std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample))
 {

@@ -1,7 +1,7 @@
-// Eye and light exchanged. A point light of intensity 1 at A makes the fluence (radiance integrated over
-// all directions) Phi at B; put the light at B, and A receives the same, up to the square of the
+// Eye and light exchanged. A point light of intensity 1 at A causes the fluence (radiance integrated
+// over all directions) Phi at B. With the light at B, A receives the same, up to the square of the
 // indices: Phi_B / n_B^2 = Phi_A / n_A^2 [Veach 1997, sec. 6.2]. With glass around one of them the two
-// pictures are made by different strategies: the light image here, next event there.
+// pictures are made by different strategies: the light image for one, next event for the other.
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
@@ -20,7 +20,7 @@ using ref::Rgb;
 using ref::Vec3;
 constexpr double pi = std::numbers::pi;
 
-/// A room of two matte walls, a mirror and a glass ball, open elsewhere; no light yet.
+/// A room of two matte walls, a mirror and a glass ball, otherwise open; without a light.
 scenes::Scene stage()
 {
     scenes::Scene scene;
@@ -39,8 +39,9 @@ scenes::Scene stage()
     return scene;
 }
 
-/// The fluence at `eye` (green) of a point light at `light`: a picture on each face of a cube. A pixel
-/// counts with its solid angle: cos^3 at its middle times its area, wrong by the order of 1 / n^2.
+/// The fluence at `eye` (green) of a point light at `light`: one picture for each face of a cube. A
+/// pixel is weighted by its solid angle: cos^3 at its middle times its area, with an error of the
+/// order of 1 / n^2.
 transport_test::Measured fluence(scenes::Scene scene, const Vec3& eye, const Vec3& light,
                                  ref::Integrator integrator, std::uint64_t seed)
 {
@@ -91,9 +92,9 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Reciprocity,
 const Vec3 a(-0.7, -0.9, 1.6);
 const Vec3 b(0.4, 1.7, 0.5);
 
-// What light tracing cannot see, by way of mirror and glass, it sees from neither side ... but from the
-// other side it is the light that comes through glass: the sum is not symmetric. It is left with the
-// walls.
+// Light tracing misses light that the eye sees only by way of mirrors and glass. After the exchange
+// the missing part is another one, so its result is not symmetric. Therefore light tracing is tested
+// with all materials made matte.
 TEST_P(Reciprocity, EyeAndLightInAirCanBeExchanged)
 {
     scenes::Scene scene = stage();
@@ -104,7 +105,7 @@ TEST_P(Reciprocity, EyeAndLightInAirCanBeExchanged)
                                        GetParam() == &ref::trace_light ? 0.16 : 0.06);
 }
 
-// n^2 = 2.25 if it is right; 1 or 5.06 if eta^2 is missing or applied on both walks.
+// n^2 = 2.25 if correct; 1 or 5.06 if eta^2 is missing or applied on both walks.
 TEST(ReciprocityInGlass, EyeAndLightDifferByTheSquareOfTheIndex)
 {
     scenes::Scene scene = stage();

@@ -16,7 +16,7 @@ namespace {
 using ref::Contribution;
 using ref::Rgb;
 
-constexpr int width = 37; // no multiple of a tile
+constexpr int width = 37; // not a multiple of the tile size
 constexpr int height = 21;
 
 const scenes::Scene& scene()
@@ -34,7 +34,8 @@ images::Film rendered(ref::Integrator integrator, std::uint64_t batches, unsigne
     return film;
 }
 
-/// Splats on pixels far from its own, with sums that depend on their order: what a light walk does.
+/// Like a light walk: splats on pixels far from the sample's own, with sums that depend on their
+/// order.
 void splash(const ref::World& world, const ref::PathOptions& /*options*/, const ref::SampleId& id,
             std::vector<Contribution>& out)
 {
@@ -54,8 +55,8 @@ TEST(Render, DoesNotDependOnTheNumberOfThreads)
     }
 }
 
-// Every triangle of the room twice, the copies in red and in reverse order: each ray that finds a wall
-// has two nearest hits, and the picture shows which one counts.
+// Every triangle of the room twice, the copies in red and in reverse order: each ray that hits a wall
+// has two closest hits, and the picture shows which one was chosen.
 TEST(Render, DoesNotDependOnTheBuilderOfTheTreeEvenWhereTwoHitsAreEquallyFar)
 {
     scenes::Scene doubled = scene();
@@ -94,7 +95,7 @@ TEST(Render, StopsSoonWithWholeBatchesOnly)
         EXPECT_FALSE(images::fill(
             film, 5, *ref::renderer(world, splash, {.seed = 11, .batch_size = 2}, 2), monitor));
         EXPECT_LT(film.batches(), 5u);
-        EXPECT_LE(asked, limit + 2); // each of two threads asks once more at most
+        EXPECT_LE(asked, limit + 2); // each of two threads asks at most once more
         EXPECT_EQ(rendered(splash, 5, 2, film), whole);
     }
 }
@@ -125,7 +126,7 @@ TEST(Render, ShowsTheFilmAfterEachBatch)
     EXPECT_EQ(seen[2], film);
 }
 
-// What one walk spreads over the film is shared by the samples per pixel, once.
+// The splats of one walk are divided by the samples per pixel, once.
 TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel)
 {
     const auto one_each = [](const ref::World& /*world*/, const ref::PathOptions& /*options*/,
@@ -136,7 +137,8 @@ TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel)
     for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(0.5, 1.0, 2.0));
 }
 
-/// One finite contribution; and for every third pixel one that is not, to its own pixel or as a splat.
+/// One finite contribution; and for every third pixel one that is not finite, to its own pixel or as a
+/// splat.
 void sometimes_not_finite(const ref::World& /*world*/, const ref::PathOptions& /*options*/,
                           const ref::SampleId& id, std::vector<Contribution>& out)
 {
@@ -174,7 +176,7 @@ TEST(Render, LeavesOutWhatIsNotFiniteAndSaysHowMuch)
         }));
         for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(1.0));
         EXPECT_EQ(strategies.means().size(),
-                  1u); // (0, 2) alone: the others found nothing that is finite
+                  1u); // only (0, 2): the others have no finite contribution
         EXPECT_EQ(reports, 3);
         EXPECT_EQ(dropped.count, 3u * 2u * (width * height / 3));
         EXPECT_EQ(
@@ -220,8 +222,8 @@ TEST(Render, RefusesAFilmOfAnotherSize)
     EXPECT_THROW(images::fill(film, 64, *ref::renderer(world, splash, {})), std::invalid_argument);
 }
 
-// Pixels stand alone: a larger number of samples, another pixel or another order cannot change what a
-// given sample of a given pixel contributes.
+// Samples are independent: another number of samples, another pixel or another order cannot change the
+// contributions of a given sample of a given pixel.
 RC_GTEST_PROP(Render, ASampleCanBeComputedAlone, (std::uint64_t seed))
 {
     const ref::World world(scene(), width, height);

@@ -1,6 +1,7 @@
 #pragma once
 
-// A room in which no two surfaces touch: all light of every length is there, and no connection is large.
+// A room in which no two surfaces touch: it has light of every length, and every connection is
+// bounded.
 
 #include "scenes/scene.h"
 
@@ -8,10 +9,11 @@
 
 namespace transport_test {
 
-/// Inside a matte sphere of radius 1 hang a matte ball and a light: a triangle that shines downwards, or
-/// a point. Nothing is a mirror, so every strategy makes every path that its end allows. Between two
-/// points of the wall cos cos' / d^2 is 1/4 wherever they are, other pairs of surfaces are at least 0.2
-/// apart: connections have a bounded variance, as they have not in a room with corners.
+/// A matte ball and a light hang inside a matte sphere of radius 1; the light is a triangle that
+/// shines downwards, or a point. No material is a mirror, so every strategy makes every path that its
+/// ends allow. Between two points of the wall cos cos' / d^2 is always 1/4, and other pairs of
+/// surfaces are at least 0.2 apart. So connections have a bounded variance, unlike in a room with
+/// corners.
 inline scenes::Scene rounded_room(bool lamp)
 {
     using scenes::Rgb;

@@ -30,8 +30,9 @@ TEST(Sampling, SphereFollowsItsDensity)
     transport_test::expect_directions_follow_density(sample, density, transport_test::fine, 1);
 }
 
-// The triangle is half of the unit square: uniform means density 2 there. The midpoint rule is exact up
-// to the cells on the diagonal, where 64 x 64 points leave an error of at most 1/64 of a cell.
+// The triangle is half of the unit square, so a uniform point has density 2 there. The midpoint rule
+// is exact except for the cells on the diagonal, where 64 x 64 points leave an error of at most 1/64
+// of a cell.
 TEST(Sampling, TriangleFollowsItsDensity)
 {
     const auto sample = [](const Uniforms& u) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// The scenes in the repository, and those that are there only on some machines.
+// The scenes in the repository, and those that exist only on some machines.
 
 #include "scenes/read_scene.h"
 
@@ -14,7 +14,7 @@ namespace transport_test {
 
 inline const std::filesystem::path our_folder = std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "scenes";
 
-/// A scene of this repository, by its name without ending.
+/// A scene of this repository, by its name without extension.
 inline scenes::Scene our_scene(const std::string& name)
 {
     return scenes::read_scene((our_folder / name).concat(".dae"));
@@ -30,8 +30,8 @@ inline std::vector<std::filesystem::path> our_scene_files()
     return files;
 }
 
-/// A file of the shared folder: beside the repository, or where PLUMBLINE_SHARED says. It may be absent:
-/// a test that needs it skips then.
+/// A file of the shared folder: beside the repository, or in PLUMBLINE_SHARED. It may be absent; a
+/// test that needs it is then skipped.
 inline std::filesystem::path shared_file(const std::string& name)
 {
     const char* folder = std::getenv("PLUMBLINE_SHARED");

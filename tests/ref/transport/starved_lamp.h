@@ -1,7 +1,7 @@
 #pragma once
 
-// A plane lit by a small lamp, beside emitters that have nearly all of the power: if those are chosen
-// nearly always, the plane is dark, and no sample says so.
+// A plane lit by a small lamp, beside emitters that have nearly all of the power. If those are chosen
+// nearly always, the plane is dark, and the samples show no variance.
 
 #include "scenes/scene.h"
 
@@ -17,7 +17,8 @@ enum : std::uint32_t { plane, lamp };
 }
 
 /// A square of the given half width at z = 0 around the origin, albedo 0.5, with a point light of
-/// intensity 1 one unit over it. The camera, of narrow view, looks straight down from beside it.
+/// intensity 1 at a height of 1. The camera looks straight down from beside the light, with a narrow
+/// view.
 inline scenes::Scene lamp_over_plane(double half_width)
 {
     using scenes::Rgb;
@@ -39,20 +40,20 @@ inline scenes::Scene lamp_over_plane(double half_width)
     return scene;
 }
 
-/// With a second lamp of `ratio` times the power, at a height of 1, that faces away from the plane. What
-/// it sends out meets nothing.
+/// Adds a second lamp of `ratio` times the power, at a height of 1, that faces away from the plane.
+/// Its light hits nothing.
 inline scenes::Scene lamp_beside_a_brighter_one(double ratio)
 {
     using scenes::Rgb;
     using scenes::Vec3;
     scenes::Scene scene = lamp_over_plane(2);
     scene.triangles.push_back({{Vec3(1, 1, 1), Vec3(2, 1, 1), Vec3(1, 2, 1)}, starved::lamp});
-    // Its power is pi A L, that of the point light 4 pi I.
+    // Its power is pi A L; that of the point light is 4 pi I.
     scene.materials[starved::lamp] = scenes::Emission{Rgb(ratio * 4.0 / 0.5)};
     return scene;
 }
 
-/// With a sky of 0.1: the power of what it sends onto the scene grows with the square of the width.
+/// Adds a sky of 0.1: the power that it sends onto the scene grows with the square of the width.
 inline scenes::Scene lamp_under_sky(double half_width)
 {
     scenes::Scene scene = lamp_over_plane(half_width);
@@ -60,9 +61,9 @@ inline scenes::Scene lamp_under_sky(double half_width)
     return scene;
 }
 
-/// The mean over the picture of the radiance of the plane (directly lit, W m^-2 sr^-1): albedo (L + I
-/// cos / (pi r^2)), by the midpoint rule over 64 points of each pixel. What it leaves is below 1e-4 of
-/// it.
+/// The mean, over the picture, of the radiance of the plane (directly lit, W m^-2 sr^-1): albedo (L +
+/// I cos / (pi r^2)), by the midpoint rule over 64 points of each pixel. The relative error is below
+/// 1e-4.
 inline double radiance_of_lit_plane(const scenes::Scene& scene, int width, int height)
 {
     const scenes::Camera& camera = *scene.camera;

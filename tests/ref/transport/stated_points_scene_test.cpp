@@ -1,4 +1,4 @@
-// The brightness that the head of a scene states for some point, as it stands there.
+// The radiance that the comment at the head of a scene states for some point.
 
 #include "tests/ref/transport/integrators.h"
 #include "tests/ref/transport/known_light.h"
@@ -14,12 +14,12 @@ struct Stated {
     Vec3 point;
     int max_edges;
     Rgb radiance;
-    double specification; // the relative bias that must be found; 0 where nothing is random
+    double specification; // the relative bias that must be detectable; 0 where nothing is random
     int samples = 65536;
 };
 
-// Specifications follow the noise: next event from a small luminaire hardly varies, a sphere in glass
-// is found by walks alone.
+// Specifications follow the noise: next event from a small luminaire hardly varies; a sphere in glass
+// is found only by emission hits.
 const std::vector<Stated> stated = {
     {"point_over_plane", {0.3, 0.2, 0.0}, 2, {0.54117832, 0.24052370, 0.06013092}, 0.0},
     {"point_over_plane", {-0.5, 0.8, 0.0}, 2, {1.19366207, 0.53051648, 0.13262912}, 0.0},
@@ -82,8 +82,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, StatedPoint, testing::ValuesIn(stated), [](cons
     return std::string(point.param.scene) + "_" + std::to_string(point.index);
 });
 
-/// Turns a camera to look at `point` through a field of view so narrow that nothing varies in it: by
-/// 1e-9, times a slope of radiance over distance of about 1.
+/// Turns a camera to look at `point` through a field of view so narrow that the radiance is constant
+/// in it: it varies by 1e-9 times a slope of radiance over distance of about 1.
 void look_at(scenes::Camera& camera, const Vec3& point)
 {
     camera.backward = glm::normalize(camera.eye - point);
@@ -107,7 +107,7 @@ TEST_P(StatedPoint, IsAsBrightAsTheSceneSays)
                                         s.radiance[channel], s.specification);
         return;
     }
-    // Eight decimals are stated.
+    // The scene states eight decimals.
     const auto batches =
         transport_test::estimate(world, ref::trace_path, {.batches = 1, .batch_size = 16, .path = path});
     for (int channel = 0; channel < 3; ++channel)

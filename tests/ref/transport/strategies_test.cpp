@@ -27,8 +27,8 @@ images::StrategySums rendered(bool weighted, unsigned threads, images::Film& fil
     return sums;
 }
 
-// Both are sums of the same terms, in another order: some 15 strategies, 12 samples, 20 splats a pixel
-// at most, all positive. 1e3 roundings are far more than there are.
+// Both are sums of the same terms in different orders: about 15 strategies, 12 samples, and at most 20
+// splats per pixel, all positive. 1e3 roundings are far more than occur.
 TEST(Strategies, WeightedPicturesAddUpToTheWhole)
 {
     images::Film film(width, height);
@@ -48,7 +48,8 @@ TEST(Strategies, DoNotDependOnTheNumberOfThreads)
     EXPECT_EQ(rendered(false, 1, film).means(), rendered(false, 3, again).means());
 }
 
-// Directly seen light: both strategies find all of it alone; together they must share it.
+// Directly seen light: each of the two strategies finds all of it alone; together their weights must
+// add up to 1.
 TEST(Strategies, UnweightedPicturesShowTheirStrategyAlone)
 {
     images::Film film(width, height);

@@ -1,6 +1,6 @@
-// Every strategy (s, t) by itself, unweighted, sample by sample: what walks as the path tracer or the
-// light tracer does, from the same numbers, must be what they find; what is known in closed form must be
-// that. Means of the others: light_strategies_test.cpp.
+// Every strategy (s, t) alone, unweighted, sample by sample. Strategies whose walks are those of the
+// path tracer or the light tracer, from the same numbers, must give the same contributions; those with
+// a closed form must give that. The means of the others are tested in light_strategies_test.cpp.
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
@@ -38,9 +38,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EyeStrategies,
                                          "integrating_sphere_lamp", "door_ajar", "point_in_glass"),
                          [](const auto& name) { return std::string(name.param); });
 
-// Both do the same operations on the same numbers, in another order: a weight of the walk is a product
-// of at most 3 factors a vertex, next event divides by a density or multiplies by a geometric term.
-// 1e-12 leaves room for 1e4 roundoffs; cancellation there is none.
+// Both do the same operations on the same numbers in different orders: the weight of a walk is a
+// product of at most 3 factors per vertex; next event divides by a density or multiplies by a
+// geometric term. 1e-12 leaves room for 1e4 roundoffs; there is no cancellation.
 TEST_P(EyeStrategies, AreThoseOfThePathTracerSampleBySample)
 {
     const scenes::Scene scene = transport_test::our_scene(GetParam());
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LightTracing,
                                          "integrating_sphere"),
                          [](const auto& name) { return std::string(name.param); });
 
-// The same walks, the same function: not a bit is different but the weights, which are 1.
+// The same walks and the same function: all bits are equal except for the weights, which are 1.
 TEST_P(LightTracing, IsTheLightImageAlone)
 {
     const scenes::Scene scene = transport_test::our_scene(GetParam());
@@ -98,10 +98,10 @@ TEST_P(LightTracing, IsTheLightImageAlone)
     }
 }
 
-// In the integrating sphere every pair of points of the wall exchanges the same light,
-// cos cos' / d^2 = 1 / (4 R^2): a connection is no longer random. Each is rho^(k-1) I / (pi R^2), to the
-// roundoff of the distance from a difference of coordinates, squared, and of two cosines: for two points
-// closer than 1e-4 R it may be 1e-16 / 1e-8 / 1e-4, which no pair here is.
+// In the integrating sphere every pair of points of the wall exchanges the same light, cos cos' / d^2
+// = 1 / (4 R^2), so a connection is not random. Each is rho^(k-1) I / (pi R^2), up to the roundoff of
+// the distance from a difference of coordinates, squared, and of two cosines. For two points closer
+// than 1e-4 R the error may be 1e-16 / 1e-8 / 1e-4; no pair here is so close.
 TEST(Connections, InTheIntegratingSphereAreAllTheSame)
 {
     const scenes::Scene scene = transport_test::our_scene("integrating_sphere");
@@ -124,7 +124,7 @@ TEST(Connections, InTheIntegratingSphereAreAllTheSame)
             }
         }
     }
-    // None is left out, however close its ends: k - 2 pairs for each sample.
+    // No pair is left out, however close its ends: k - 2 pairs for each sample.
     for (int k = 3; k <= longest; ++k) EXPECT_EQ(count[static_cast<std::size_t>(k)], (k - 2) * 4096);
 }
 

@@ -16,7 +16,7 @@ TEST(Aabb, TheEmptyBoxIsNeutralAndHasNoArea)
     EXPECT_TRUE(is_empty(Aabb{}));
     EXPECT_EQ(half_area(Aabb{}), 0);
     EXPECT_EQ(half_area(box), 5 * 3 + 3 * 3 + 3 * 5);
-    EXPECT_FALSE(ref::is_empty({Vec3(1), Vec3(1)})); // a point is a box
+    EXPECT_FALSE(ref::is_empty({Vec3(1), Vec3(1)})); // a point is a valid box
     for (int axis = 0; axis < 3; ++axis) {
         Aabb turned = box;
         std::swap(turned.lower[axis], turned.upper[axis]);
@@ -32,7 +32,8 @@ TEST(Aabb, TheMiddleOfAFiniteBoxIsFiniteAndInIt) // half of the sum of 1e308 and
         for (const Aabb& box : trees_test::boxes(static_cast<trees_test::Kind>(kind), 100, random)) {
             const Vec3 middle = centroid(box);
             for (int axis = 0; axis < 3; ++axis) {
-                // Halving is exact but for denormal numbers, which it rounds to even: up by half a step.
+                // Halving is exact except for denormal numbers, which are rounded to even: up by half
+                // a step.
                 const double step = std::numeric_limits<double>::denorm_min();
                 EXPECT_GE(middle[axis], box.lower[axis] - step)
                     << trees_test::name(static_cast<trees_test::Kind>(kind));

@@ -1,6 +1,6 @@
 #pragma once
 
-// Sets of boxes of every inconvenient kind.
+// Sets of boxes of all difficult kinds.
 
 #include "ref/trees/aabb.h"
 #include "tests/ref/trees/meshes.h"
@@ -13,7 +13,7 @@ namespace trees_test {
 
 using ref::Aabb;
 
-/// How the centroids of a set lie.
+/// The distribution of the centroids of a set.
 enum class Kind {
     uniform,
     clustered,

@@ -8,7 +8,7 @@ namespace {
 
 using ref::Vec3;
 
-/// Two small triangles far apart along x, seen from z = 10, by a camera that spans 90
+/// Two small triangles far apart along x, seen from z = 10 by a camera with a field of view of 90
 /// degrees.
 scenes::Scene two_specks()
 {
@@ -47,7 +47,7 @@ TEST(DrawBoxes, DrawsTheRootAtLevelZeroAndItsChildrenAtLevelOne)
     EXPECT_NEAR(root.front(), 40, 1);
     EXPECT_NEAR(root.back(), 160, 1);
     EXPECT_NEAR(static_cast<double>(root.size()), 120, 2);
-    for (const int level : {1, 7}) { // leaves stay in view below their depth
+    for (const int level : {1, 7}) { // leaves stay visible below their depth
         const std::vector<int> children = coloured_columns(cli::draw_boxes(geometry, level, 200, 100));
         EXPECT_NEAR(static_cast<double>(children.size()), 2 * 20, 4);
         for (const int x : children) EXPECT_TRUE((x >= 39 && x <= 61) || (x >= 139 && x <= 161)) << x;
@@ -58,14 +58,13 @@ TEST(DrawOrder, GivesEachPieceOfTheListItsColour)
 {
     const scenes::Scene scene = two_specks();
     const ref::Geometry geometry(scene, ref::Builder::morton30);
-    // How far the colours half way up both triangles are from each other, at places that mirror each
-    // other.
+    // The difference between the colours at mid-height of the two triangles, at mirrored places.
     const auto difference = [&](std::size_t pieces) {
         const images::Image image = cli::draw_order(geometry, pieces, 200, 100);
-        EXPECT_EQ(image.pixels[50 * 200 + 100], images::Rgb(0.9)); // the ground between them
+        EXPECT_EQ(image.pixels[50 * 200 + 100], images::Rgb(0.9)); // the background between them
         return glm::length(image.pixels[50 * 200 + 50] - image.pixels[50 * 200 + 149]);
     };
-    EXPECT_NEAR(difference(1), 0, 1e-14); // but for roundings of the shading: tens of ulps
+    EXPECT_NEAR(difference(1), 0, 1e-14); // up to roundings of the shading: tens of ulps
     EXPECT_GT(difference(2), 0.1);
 }
 
@@ -77,8 +76,8 @@ TEST(DrawVisits, IsBrighterWhereARayEntersMoreBoxes)
         return cli::draw_visits(geometry, 3, 200, 100).pixels[static_cast<std::size_t>(50 * 200 + x)];
     };
     EXPECT_EQ(colour_at(10), images::Rgb(0));        // beside the root's box
-    EXPECT_EQ(colour_at(100), images::Rgb(1, 0, 0)); // the root's alone
-    EXPECT_EQ(colour_at(50), images::Rgb(1, 1, 0));  // and a leaf's
+    EXPECT_EQ(colour_at(100), images::Rgb(1, 0, 0)); // only the root's
+    EXPECT_EQ(colour_at(50), images::Rgb(1, 1, 0));  // and that of a leaf
 }
 
 TEST(DrawBoxes, OfAnEmptySceneDrawsNothing)

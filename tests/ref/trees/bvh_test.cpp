@@ -1,4 +1,4 @@
-// All builders on all kinds of input.
+// All builders on all kinds of boxes.
 
 #include "ref/trees/bvh.h"
 
@@ -89,7 +89,7 @@ TEST(Build, TakesManyCoincidentPrimitives)
 
 TEST(Build, IsNotDrivenIntoAChainByBoxesOfGrowingSize)
 {
-    std::vector<Aabb> boxes; // the best split always takes away the largest box
+    std::vector<Aabb> boxes; // the best split always separates the largest box
     for (int i = 0; i < 2000; ++i) boxes.push_back({Vec3(0), Vec3(std::ldexp(1, i / 2 - 500))});
     for (const Builder builder : builders) {
         const Tree tree = build(boxes, builder);
@@ -184,7 +184,7 @@ RC_GTEST_PROP(RadixSort, IsAStableSort, ())
     std::vector<std::uint32_t> primitives;
     std::vector<std::pair<std::uint64_t, std::uint32_t>> expected;
     for (std::uint32_t i = 0; i < n; ++i) {
-        const bool again = i > 0 && random.below(2) == 0; // equal codes show whether it is stable
+        const bool again = i > 0 && random.below(2) == 0; // equal codes, to test that the sort is stable
         codes.push_back(again ? codes[random.below(i)] : random.bits() >> (64 - bits));
         primitives.push_back(static_cast<std::uint32_t>(n) - i);
         expected.emplace_back(codes[i], primitives[i]);

@@ -1,4 +1,4 @@
-// Leaving surfaces without an epsilon, and joining them.
+// Rays that leave surfaces without an epsilon, and segments between surfaces.
 
 #include "ref/trees/geometry.h"
 
@@ -32,7 +32,7 @@ Vec3 tangent(const Vec3& n, Random& random)
     }
 }
 
-/// A direction of any length, to either side of `n`; its cosine to n is at least `least`.
+/// A direction of any length, to either side of `n`, whose cosine to n is at least `least`.
 Vec3 leaving_direction(const Vec3& n, double least, Random& random)
 {
     const double cosine = random.magnitude(std::log10(least), 0);
@@ -64,7 +64,7 @@ std::vector<Case> cases()
     return all;
 }
 
-/// A point on primitive 0 as a ray finds it.
+/// The point on primitive 0 where a ray hits it.
 std::optional<SurfacePoint> find_point(const Geometry& geometry, const Vec3& target, double size,
                                        Random& random)
 {
@@ -75,8 +75,8 @@ std::optional<SurfacePoint> find_point(const Geometry& geometry, const Vec3& tar
     return surface_point(geometry, ray, *hit);
 }
 
-// The normal is wrong by an angle of some 4 u aspect: directions closer to the surface have no known
-// side.
+// The normal has an error of about 4 u times the aspect ratio, as an angle. For directions closer to
+// the surface the side is unknown.
 double least_cosine(double aspect)
 {
     return std::max(1e-12, 16 * u * aspect);
@@ -98,7 +98,7 @@ TEST(LeaveSurface, ARayFromATriangleMeetsNeitherItNorItsDuplicate)
             const Vec3 b = random.barycentric();
             const auto point =
                 find_point(geometry, b[0] * v[0] + b[1] * v[1] + b[2] * v[2], c.size, random);
-            if (!point) continue; // the aim is rounded: slivers can be missed
+            if (!point) continue; // the target is rounded: slivers can be missed
             ++found;
             const Vec3 d = leaving_direction(point->normal, least_cosine(c.aspect), random);
             met += intersect(geometry, {leave_surface(*point, d), d}) ? 1 : 0;
@@ -122,8 +122,8 @@ TEST(SurfacePoint, IsWhereTheRayMeetsTheSurfaceAndKnowsItsSideAndMaterial)
             const auto hit = intersect(geometry, ray);
             if (!hit) continue;
             const SurfacePoint point = surface_point(geometry, ray, *hit);
-            // Both are good to some tens of roundings of the scene's size, times the triangle's aspect
-            // and 1 / cosine, which is large for grazing rays.
+            // Both are accurate to some tens of roundings of the scene's size, times the triangle's
+            // aspect ratio and 1 / cosine, which is large for grazing rays.
             const double cosine = std::abs(glm::dot(ray.direction, point.normal));
             const double distance = glm::length(point.position - (ray.origin + hit->t * ray.direction));
             EXPECT_LE(distance * cosine, 1000 * u * size);
@@ -166,7 +166,7 @@ TEST(LeaveSurface, ARayFromTheOutsideOfASphereDoesNotMeetItAndOneFromTheInsideMe
             const Vec3 target =
                 sphere.center + ball.radius * random.magnitude(-4, 0) * random.direction();
             const auto point = find_point(geometry, target, ball.radius, random);
-            ASSERT_TRUE(point || ball.distance > 1e3 * ball.radius); // there the aim is rounded
+            ASSERT_TRUE(point || ball.distance > 1e3 * ball.radius); // beyond that the target is rounded
             if (!point) continue;
             const Vec3 d = leaving_direction(point->normal, 1e-12, random);
             const auto hit = intersect(geometry, {leave_surface(*point, d), d});
@@ -174,8 +174,8 @@ TEST(LeaveSurface, ARayFromTheOutsideOfASphereDoesNotMeetItAndOneFromTheInsideMe
             if (cosine > 0) {
                 ASSERT_FALSE(hit) << "radius " << ball.radius << " distance " << ball.distance;
             } else {
-                // The chord is 2 r |cos|, and no shorter from a point inside: anything under half is the
-                // surface that was left.
+                // The chord is 2 r |cos|, and not shorter from a point inside. A hit at less than half
+                // of it is on the surface that was left.
                 ASSERT_TRUE(hit) << "radius " << ball.radius << " distance " << ball.distance;
                 ASSERT_GE(hit->t * glm::length(d), ball.radius * -cosine);
             }
@@ -194,8 +194,8 @@ TEST(LeaveSurface, MovesAPointByNoMoreThanItsErrorBound)
         scene.triangles = {{v, 0}};
         const Geometry geometry(scene);
         const SurfacePoint point = triangle_point(geometry, 0, random.barycentric());
-        // |n|_1 <= sqrt(3) times the largest of 7 u b e + 2 u |p| + 8 u a, b e and a <= D; and its
-        // rounding.
+        // The bound: |n|_1 <= sqrt(3) times the largest of 7 u b e + 2 u |p| + 8 u a, where b e and a
+        // are at most D; and the rounding of this.
         const double largest = u * (15 * geometry.diagonal() + 2 * (c.offset + 3 * c.size));
         const double moved = glm::length(leave_surface(point, point.normal) - point.position);
         EXPECT_LE(moved, std::sqrt(3.0) * largest + 2 * u * (c.offset + 3 * c.size));
@@ -203,7 +203,7 @@ TEST(LeaveSurface, MovesAPointByNoMoreThanItsErrorBound)
     }
 }
 
-// A neighbour in the same plane, up to 1e6 times larger, beyond an edge close to which the ray starts.
+// A neighbour in the same plane, up to 1e6 times larger, beyond an edge close to the start of the ray.
 TEST(LeaveSurface, ARayMeetsNoLargerNeighbourInThePlane)
 {
     Random random(8);
@@ -223,7 +223,7 @@ TEST(LeaveSurface, ARayMeetsNoLargerNeighbourInThePlane)
                 const double near = random.magnitude(-17, -1);
                 const double along = random.uniform(0, 1 - near);
                 const auto point = triangle_point(geometry, 0, {1 - near - along, along, near});
-                // The far corner is rounded, and the position: the planes differ by that angle.
+                // The far corner and the position are rounded: the planes differ by that angle.
                 const double least = std::max(1e-12, 64 * u * (1 + offset));
                 const Vec3 d = leaving_direction(point.normal, least, random);
                 met += intersect(geometry, {leave_surface(point, d), d}) ? 1 : 0;
@@ -285,8 +285,8 @@ TEST(Segments, AreNotBlockedByTheTrianglesTheyEndOn)
             const Geometry geometry(scene);
             const SurfacePoint p = triangle_point(geometry, 0, random.barycentric());
             const SurfacePoint q = triangle_point(geometry, 1, random.barycentric());
-            // The side of a direction is known up to the error of the normal, and of the direction
-            // itself: the positions err by u |p| on a segment of this length.
+            // The side of a direction is known up to the error of the normal and that of the direction
+            // itself: the positions have an error of u |p| on a segment of this length.
             const double length = glm::length(q.position - p.position);
             const double least = 16 * u * c.aspect + 16 * u * (c.offset + geometry.diagonal()) / length;
             if (std::abs(cosine(p, q.position)) < least || std::abs(cosine(q, p.position)) < least)
@@ -313,7 +313,7 @@ TEST(Segments, AreNotBlockedByTheSpheresTheyEndOn)
             scenes::Scene scene = empty_scene();
             scene.spheres = {a, b, a, b};
             const Geometry geometry(scene);
-            // Points that face each other, often barely.
+            // Points that face each other, often only just.
             const Vec3 towards = glm::normalize(b.center - a.center);
             const auto facing = [&](double side) {
                 return side * towards + random.magnitude(-6, 3) * tangent(towards, random);
@@ -331,7 +331,7 @@ TEST(Segments, AreNotBlockedByTheSpheresTheyEndOn)
     }
 }
 
-TEST(Segments, AreBlockedByWhatStandsBetweenHoweverCloseToAnEnd) // no shadow ray is cut short
+TEST(Segments, AreBlockedByWhatStandsBetweenHoweverCloseToAnEnd) // no shadow ray is too short
 {
     for (const double scale : {1e-15, 1.0, 1e15})
         for (const double at : {1e-6, 0.05, 0.5, 0.95, 1 - 1e-6}) {

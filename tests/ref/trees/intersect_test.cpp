@@ -1,4 +1,4 @@
-// One ray against one primitive, and closed meshes that must not leak.
+// One ray against one primitive, and closed meshes that no ray may pass.
 
 #include "ref/trees/intersect.h"
 
@@ -44,7 +44,8 @@ struct ExactHit {
     double t, b0, b1, b2;
 };
 
-/// Cramer's rule, in rationals; rounded only at the end. Empty if the ray is parallel to the plane.
+/// Cramer's rule in rational numbers, rounded only at the end. Empty if the ray is parallel to the
+/// plane.
 std::optional<ExactHit> exact_hit(const Ray& ray, const std::array<Vec3, 3>& v)
 {
     const Exact v0 = exact(v[0]);
@@ -77,7 +78,7 @@ RC_GTEST_PROP(EdgeFunction, HasTheExactSignHoweverCloseTheRayPasses, ())
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const Vec3 p = random.in_cube();
-    // q on the line through 0 and p, but for some last bits.
+    // q is on the line through 0 and p, except for some last bits.
     Vec3 q = random.uniform(-2, 2) * p;
     for (auto i = random.below(3); i > 0; --i)
         q.x = std::nextafter(q.x, random.uniform(-1, 1) * infinity);
@@ -88,10 +89,11 @@ RC_GTEST_PROP(EdgeFunction, HasTheExactSignHoweverCloseTheRayPasses, ())
     RC_ASSERT(ref::edge_function(p, q) == -ref::edge_function(q, p));
 }
 
-// The sheared vertices differ from the true ones by 7 u D at most (see geometry.cpp), D the largest
-// coordinate of v - o: a ray that passes the projected triangle at a greater distance from its edges, in
-// barycentric terms 7 u D / height, cannot be misjudged. The factor of 4 covers that the two ends of an
-// edge move in opposite directions and that the third vertex does too.
+// The sheared vertices differ from the exact ones by at most 7 u D (see geometry.cpp), where D is the
+// largest coordinate of v - o. So the result is certain for a ray that passes the projected triangle
+// at a greater distance from its edges, which in barycentric coordinates is 7 u D / height. The factor
+// of 4 accounts for the two ends of an edge moving in opposite directions, and for the third vertex
+// moving too.
 TEST(IntersectTriangle, AgreesWithExactArithmetic)
 {
     Random random(1);
@@ -103,7 +105,7 @@ TEST(IntersectTriangle, AgreesWithExactArithmetic)
         const Vec3 middle = (i % 2 == 0 ? 0.0 : random.magnitude(0, 4)) * scale * random.direction();
         std::array<Vec3, 3> v{};
         for (Vec3& vertex : v) vertex = middle + scale * random.in_cube();
-        const Vec3 b = random.barycentric() * 1.5 - 0.25; // inside and not far outside
+        const Vec3 b = random.barycentric() * 1.5 - 0.25; // inside, and not far outside
         const Vec3 origin = middle + scale * random.magnitude(-2, 2) * random.in_cube();
         const Ray ray{origin,
                       (b[0] * v[0] + b[1] * v[1] + b[2] * v[2] - origin) * random.magnitude(-3, 3)};
@@ -183,9 +185,9 @@ TEST(IntersectTriangle, TheLimitIsStrictAndZeroIsNoHit)
     EXPECT_FALSE(hit({Vec3(0), -z}));
 }
 
-// From points in the plane of a triangle, up to rounding: whatever is hit is certainly ahead. The ray
-// and the triangle are taken as sheared; their t is the sign of U Az + V Bz + W Cz against that of U + V
-// + W.
+// Rays from points in the plane of a triangle, up to rounding: a reported hit must certainly be in
+// front of the origin. The test uses the sheared ray and triangle; the sign of t is that of U Az + V
+// Bz + W Cz, divided by that of U + V + W.
 TEST(IntersectTriangle, WhatIsHitIsCertainlyAhead)
 {
     Random random(6);
@@ -210,8 +212,8 @@ TEST(IntersectTriangle, WhatIsHitIsCertainlyAhead)
         const cpp_rational ahead = U * A[2] + V * B[2] + W * C[2];
         EXPECT_EQ(sign(ahead), sign(cpp_rational(U + V + W))) << "ray " << i;
     }
-    EXPECT_GT(misses, 15000); // what is not certain is no hit
-    EXPECT_GT(hits, 500);     // and what is certain is one
+    EXPECT_GT(misses, 15000); // an uncertain hit is not reported
+    EXPECT_GT(hits, 500);     // and a certain one is
 }
 
 TEST(IntersectTriangle, TinyTrianglesAreHitAsOftenAsLargeOnes) // an absolute threshold on det loses them
@@ -265,8 +267,8 @@ RC_GTEST_PROP(IntersectTriangle, ScalingByAPowerOfTwoScalesTAndNothingElse, ())
 
 // ---- spheres -------------------------------------------------------------------------------------
 
-/// Squared distance of the line from the centre, less r^2, in units of r^2; exact but for the last
-/// rounding.
+/// The squared distance of the line from the centre, minus r^2, in units of r^2; exact except for the
+/// last rounding.
 double exact_miss(const Ray& ray, const Vec3& center, double radius)
 {
     const Exact f = exact(ray.origin) - exact(center);
@@ -279,8 +281,8 @@ double exact_miss(const Ray& ray, const Vec3& center, double radius)
     return cpp_rational((dot(f, f) - along * along / dot(d, d)) / r2 - 1).convert_to<double>();
 }
 
-// f = o - c, (b/a) d and l are each rounded by u |f|: |l| is wrong by 3 u |f| + 2 u r at most, so that
-// |l|^2 / r^2 - 1 is certain beyond twice that over r.
+// f = o - c, (b/a) d and l are each rounded by u |f|, so |l| has an error of at most 3 u |f| + 2 u r.
+// Therefore |l|^2 / r^2 - 1 is certain if it is larger than twice that over r.
 TEST(IntersectSphere, IsHitOrMissedAsExactArithmeticSays)
 {
     Random random(2);
@@ -333,7 +335,7 @@ RC_GTEST_PROP(IntersectSphere, ScalingByAPowerOfTwoScalesTAndNothingElse, ())
     const double radius = random.uniform(0.1, 1);
     const Vec3 origin = 3.0 * random.in_cube();
     const Vec3 direction = center + 1.1 * radius * random.direction() - origin;
-    // Squares of lengths and of t are within range, products of four lengths are not.
+    // Squares of lengths and of t are within range; products of four lengths are not.
     const double scale = std::ldexp(1, *rc::gen::inRange(-400, 400));
     const double stretch = std::ldexp(1, *rc::gen::inRange(-400, 400));
     const auto t = ref::intersect_sphere({origin, direction}, center, radius);
@@ -364,7 +366,7 @@ struct Placement {
     Vec3 offset;
 };
 
-/// Where the meshes are put: small, large, and away from the origin by up to 1e4 of their size.
+/// The places of the meshes: small, large, and away from the origin by up to 1e4 times their size.
 std::vector<Placement> placements()
 {
     return {{1, Vec3(0)},
@@ -374,7 +376,7 @@ std::vector<Placement> placements()
             {1e-15, Vec3(1e-11, 0, -1e-11)}};
 }
 
-/// Points well inside: star-shaped meshes contain everything between their centre and their surface.
+/// Points well inside: a star-shaped mesh contains all points between its centre and its surface.
 Vec3 inside(const Mesh& mesh, Random& random)
 {
     const auto& [a, b, c] = mesh.triangles[random.below(mesh.triangles.size())];
@@ -429,7 +431,7 @@ TEST(ClosedMeshes, NoRayAimedAtAnEdgeEscapes)
 
 TEST(ClosedMeshes, NoAxisParallelRayThroughTheGridEscapes)
 {
-    // Origins and directions on a lattice that the vertices lie on as well: every kind of exact tie.
+    // Origins and directions on a lattice that also contains the vertices: every kind of exact tie.
     const Mesh mesh = trees_test::tessellated_box(4, 1);
     const scenes::Scene scene = scene_of(mesh);
     const ref::Geometry geometry(scene);

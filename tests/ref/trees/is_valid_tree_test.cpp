@@ -1,4 +1,4 @@
-// The judge of trees must see each way in which a tree can be broken.
+// is_valid_tree must detect every way in which a tree can be broken.
 
 #include "ref/trees/is_valid_tree.h"
 
@@ -27,14 +27,14 @@ TEST(IsValidTree, NamesWhatIsBroken)
     const Tree good = ref::build(boxes, ref::Builder::morton63);
     ASSERT_EQ(is_valid_tree(good, boxes), std::vector<std::string>());
     const std::vector<Broken> kinds = {
-        {"a node too few", [](Tree& t) { t.nodes.pop_back(); }, "need"},
-        {"a node too many", [](Tree& t) { t.nodes.emplace_back(); }, "need"},
-        {"a box too few", [](Tree& t) { t.bounds.pop_back(); }, "boxes"},
+        {"one node too few", [](Tree& t) { t.nodes.pop_back(); }, "need"},
+        {"one node too many", [](Tree& t) { t.nodes.emplace_back(); }, "need"},
+        {"one box too few", [](Tree& t) { t.bounds.pop_back(); }, "boxes"},
         {"no nodes", [](Tree& t) { t.nodes.clear(); }, "need"},
         {"no leaves", [](Tree& t) { t = Tree{}; }, "no leaf"},
         {"a primitive twice", [](Tree& t) { t.primitives[0] = t.primitives[1]; }, "times"},
-        {"a primitive that is not there", [](Tree& t) { t.primitives[0] = 8; }, "no primitive 8"},
-        {"a primitive too few", [](Tree& t) { t.primitives.pop_back(); }, "divide"},
+        {"a primitive that does not exist", [](Tree& t) { t.primitives[0] = 8; }, "no primitive 8"},
+        {"one primitive too few", [](Tree& t) { t.primitives.pop_back(); }, "divide"},
         {"an empty leaf", [](Tree& t) { t.leaf_begin[3] = t.leaf_begin[2]; }, "empty"},
         {"a null child", [](Tree& t) { t.nodes[2].children[0] = ref::no_node; }, "not there"},
         {"a child out of range", [](Tree& t) { t.nodes[2].children[1] = 15; }, "not there"},
@@ -60,7 +60,7 @@ TEST(IsValidTree, NamesWhatIsBroken)
         {"the scene's box everywhere", [](Tree& t) { t.bounds.assign(t.bounds.size(), t.bounds[0]); },
          "box of node"},
         {"an empty box", [](Tree& t) { t.bounds[3] = Aabb{}; }, "box of node 3"},
-        {"not a number in a box", [](Tree& t) { t.bounds[3].lower.x = std::nan(""); }, "box of node 3"},
+        {"NaN in a box", [](Tree& t) { t.bounds[3].lower.x = std::nan(""); }, "box of node 3"},
     };
     for (const Broken& kind : kinds) {
         Tree tree = good;
@@ -74,7 +74,8 @@ TEST(IsValidTree, NamesWhatIsBroken)
 
 TEST(IsValidTree, SeesACycleThatTheRootDoesNotReach)
 {
-    // Nodes 1 and 2 are each other's child: all have one parent, but the root reaches only two leaves.
+    // Nodes 1 and 2 are each other's child: all nodes have one parent, but only two leaves can be
+    // reached from the root.
     const std::vector<Aabb> boxes(4, Aabb{ref::Vec3(0), ref::Vec3(1)});
     Tree tree = ref::build(boxes, ref::Builder::morton30);
     const auto link = [&](std::uint32_t node, std::uint32_t left, std::uint32_t right) {
@@ -99,7 +100,7 @@ TEST(IsValidTree, AcceptsTheEmptyTreeForNoPrimitivesOnly)
 
 TEST(IsValidRadixTree, SeesASplitThatSharesNoLongerPrefix)
 {
-    // Over the codes 0, 1, 2, 3 the root must split in the middle; a chain is a valid tree all the same.
+    // Over the codes 0, 1, 2, 3 the root must split in the middle; yet a chain is a valid tree.
     const std::vector<std::uint64_t> codes = {0, 1, 2, 3};
     const std::vector<Aabb> boxes(4, Aabb{ref::Vec3(0), ref::Vec3(1)});
     Tree tree = ref::build(boxes, ref::Builder::morton30);
@@ -113,8 +114,9 @@ TEST(IsValidRadixTree, SeesASplitThatSharesNoLongerPrefix)
     link(1, 4, 2);
     link(2, 5, 6);
     EXPECT_EQ(is_valid_tree(tree, boxes), std::vector<std::string>());
-    EXPECT_EQ(is_valid_radix_tree(tree, codes),
-              std::vector<std::string>{"node 1 shares no longer prefix than its parent 0"});
+    EXPECT_EQ(
+        is_valid_radix_tree(tree, codes),
+        std::vector<std::string>{"the common prefix of node 1 is not longer than that of its parent 0"});
     EXPECT_NE(is_valid_radix_tree(tree, std::vector<std::uint64_t>{0, 1, 2}),
               std::vector<std::string>());
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Closed meshes with inconvenient triangles, and random points on and around them.
+// Closed meshes with difficult triangles, and random points on and around them.
 
 #include "scenes/scene.h"
 
@@ -19,7 +19,7 @@ namespace trees_test {
 
 using scenes::Vec3;
 
-/// Uniform doubles and what follows from them; the same numbers on every machine.
+/// Uniform doubles and numbers computed from them; the same on every machine.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : bits_(seed) {}
@@ -27,7 +27,7 @@ public:
     double uniform(double from, double to) { return from + (to - from) * uniform(); }
     std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits_() % n); }
     Vec3 in_cube() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
-    /// 10^x with x uniform: every order of magnitude is as likely.
+    /// 10^x with x uniform: every order of magnitude is equally likely.
     double magnitude(double from, double to) { return std::pow(10.0, uniform(from, to)); }
     Vec3 direction()
     {
@@ -50,7 +50,7 @@ private:
     std::mt19937_64 bits_;
 };
 
-/// Vertices and triangles by index; closed, star-shaped around `inside`.
+/// A mesh of vertices and of triangles by index; closed, star-shaped around `inside`.
 struct Mesh {
     std::vector<Vec3> vertices;
     std::vector<std::array<std::size_t, 3>> triangles;
@@ -67,8 +67,8 @@ inline Mesh tetrahedron(Random& random)
     return mesh;
 }
 
-/// A sphere from an icosahedron by splitting edges, `squash` times flatter along z: all slivers for
-/// small `squash` seen from the side.
+/// A sphere made from an icosahedron by splitting edges, and `squash` times flatter along z. For small
+/// `squash`, all triangles are slivers when seen from the side.
 inline Mesh icosphere(int levels, double squash)
 {
     const double g = (1 + std::sqrt(5.0)) / 2;
@@ -100,7 +100,7 @@ inline Mesh icosphere(int levels, double squash)
     return mesh;
 }
 
-/// The surface of the cube [-1, 1]^3 cut into n x n cells per face, the cuts of all edges moved to
+/// The surface of the cube [-1, 1]^3 divided into n x n cells per face, with all grid lines moved to
 /// -1 + 2 (i/n)^power: long slivers for a large power. The centre is inside.
 inline Mesh tessellated_box(std::size_t n, double power)
 {
@@ -140,7 +140,7 @@ inline Mesh tessellated_box(std::size_t n, double power)
     return mesh;
 }
 
-/// Every vertex v becomes scale * v + offset.
+/// The mesh with every vertex v replaced by scale * v + offset.
 inline Mesh moved(Mesh mesh, double scale, const Vec3& offset)
 {
     for (Vec3& v : mesh.vertices) v = scale * v + offset;

@@ -71,8 +71,8 @@ RC_GTEST_PROP(MortonCode, GrowsWithEveryAxis, ())
     RC_ASSERT((morton_encode(low) == morton_encode(high)) == (low == high));
 }
 
-// Order along the curve: the octant at the coarsest level where two cells differ decides, octants being
-// visited with z fastest and x slowest.
+// The order along the curve: the octants at the coarsest level where two cells differ decide. Octants
+// are ordered with z fastest and x slowest.
 RC_GTEST_PROP(MortonCode, OrderIsTheOrderAlongTheCurve, ())
 {
     const Cell a = any_cell(21);
@@ -105,7 +105,7 @@ RC_GTEST_PROP(MortonCode, DecodesToTheCellThatHoldsThePoint, ())
         const double width = (grid.upper[axis] - grid.lower[axis]) / std::ldexp(1, bits);
         const double in_cell =
             (point[axis] - grid.lower[axis]) / width - cell[static_cast<std::size_t>(axis)];
-        // Two differences and two quotients, each wrong by u of up to 2^21 cells.
+        // Two differences and two quotients, each with an error of u times up to 2^21 cells.
         RC_ASSERT(in_cell >= -4 * 0x1p-53 * 0x1p21);
         RC_ASSERT(in_cell <= 1 + 4 * 0x1p-53 * 0x1p21);
     }

@@ -1,4 +1,4 @@
-// Karras' construction against the recursive one, and against what a radix tree is.
+// Compares Karras' construction with the recursive one, and checks the definition of a radix tree.
 
 #include "ref/trees/radix_tree.h"
 
@@ -163,7 +163,7 @@ TEST(RadixTree, OfEqualKeysIsBalanced) // without the tie-break: a chain, or nod
 
 TEST(RadixTree, TheDeepestTreeKeepsTheBound)
 {
-    // Keys 0, 1, 2, 4, ..., 2^62, the first many times: every bit of the code makes a level.
+    // Keys 0, 1, 2, 4, ..., 2^62, the first repeated many times: every bit of the code adds a level.
     Codes codes(1024, 0);
     for (int bit = 0; bit < 63; ++bit) codes.push_back(std::uint64_t{1} << bit);
     EXPECT_EQ(violations(codes), std::vector<std::string>());

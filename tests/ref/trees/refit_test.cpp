@@ -14,7 +14,7 @@ using ref::Tree;
 using trees_test::Kind;
 using trees_test::Random;
 
-/// The box of a node by recursion: what refit should find.
+/// The box of a node by recursion: the expected result of refit.
 Aabb box_below(const Tree& tree, std::span<const Aabb> boxes, std::uint32_t node)
 {
     if (tree.is_leaf(node)) return boxes[tree.primitives[tree.leaf(node)]];

@@ -1,4 +1,5 @@
-// Every split of the builder against all splits there are, and the cost of trees against hand counts.
+// Compares every split of the builder with all possible splits, and the cost of trees with costs
+// counted by hand.
 
 #include "ref/trees/sah.h"
 
@@ -41,8 +42,8 @@ double split_cost(std::span<const Aabb> boxes, std::span<const std::uint32_t> le
            half_area(box_of(boxes, right)) * static_cast<double>(right.size());
 }
 
-/// The least cost over all positions along all axes; primitives of equal centroid in the order of
-/// number.
+/// The least cost over all positions along all axes. Primitives of equal centroid are in the order of
+/// their numbers.
 double least_split_cost(std::span<const Aabb> boxes, std::vector<std::uint32_t> primitives)
 {
     double least = std::numeric_limits<double>::infinity();
@@ -103,7 +104,7 @@ TEST(Quality, OfAHandMadeTreeIsWhatOneCounts)
 
 TEST(Quality, ALeafCostsAsManyTestsAsItHoldsPrimitives)
 {
-    Tree tree; // one leaf, the root: every ray that meets it tests all that it holds
+    Tree tree; // one leaf, the root: every ray that hits it tests all of its primitives
     tree.nodes.resize(1);
     tree.bounds = {{Vec3(0), Vec3(1)}};
     tree.leaf_begin = {0, 3};

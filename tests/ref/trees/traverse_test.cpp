@@ -1,4 +1,4 @@
-// Rays through trees find what rays find without: bit for bit.
+// Queries with a tree must give the same hits as queries without one, bit for bit.
 
 #include "ref/trees/traverse.h"
 
@@ -25,7 +25,7 @@ bool same(const std::optional<Hit>& a, const std::optional<Hit>& b)
     return a->t == b->t && a->primitive == b->primitive && a->barycentric == b->barycentric;
 }
 
-/// Meshes, slivers, duplicates, degenerate triangles and spheres in one place.
+/// Meshes, slivers, duplicates, degenerate triangles and spheres, close together.
 scenes::Scene crowded_scene(Random& random)
 {
     scenes::Scene scene =
@@ -34,7 +34,7 @@ scenes::Scene crowded_scene(Random& random)
     for (int i = 0; i < 12; ++i) {
         const Vec3 at = 0.8 * random.in_cube();
         const Vec3 along = random.in_cube();
-        // Long thin ones, of an aspect up to 1e15.
+        // Long thin ones, with aspect ratios up to 1e15.
         scene.triangles.push_back(
             {{at, at + along, at + 0.5 * along + random.magnitude(-15, 0) * random.in_cube()}, 0});
     }
@@ -85,9 +85,9 @@ Vec3 some_point(const scenes::Scene& scene, Random& random)
     }
 }
 
-/// Random rays, and those that find the gaps: along axes (with zeros of either sign), in the faces of
-/// boxes, in the planes of triangles, at corners and edges, tangent to spheres; from everywhere, with
-/// and without an end.
+/// Random rays, and rays for the special cases: along axes (with zeros of either sign), in the faces
+/// of boxes, in the planes of triangles, at corners and edges, and tangent to spheres; from all sides,
+/// with and without a limit.
 Ray some_ray(const scenes::Scene& scene, double scale, const Vec3& offset, Random& random)
 {
     Ray ray;
@@ -107,7 +107,7 @@ Ray some_ray(const scenes::Scene& scene, double scale, const Vec3& offset, Rando
     case 3:
         ray.direction = some_point(scene, random) - some_point(scene, random);
         break;
-    case 4: { // in the plane of a triangle, as far as rounding goes
+    case 4: { // in the plane of a triangle, up to rounding
         const auto& v = scene.triangles[random.below(scene.triangles.size())].vertices;
         const Vec3 b = random.barycentric() * random.uniform(-2, 2);
         ray.origin = v[0] + b[1] * (v[1] - v[0]) + b[2] * (v[2] - v[0]);
@@ -141,7 +141,7 @@ std::vector<Placement> placements()
 }
 
 TEST(Traverse,
-     FindsWhatLinearSearchFinds) // 5 places x 10 scenes x 20,000 = 10^6 rays; builders take turns
+     FindsWhatLinearSearchFinds) // 5 places x 10 scenes x 20,000 = 10^6 rays, for the builders in turn
 {
     Random random(1);
     std::uint64_t hits = 0;
@@ -166,7 +166,7 @@ TEST(Traverse,
 }
 
 TEST(Slabs,
-     AreEnteredBeforeAnythingInThemIsHit) // the claim that the padding rests on, primitive by primitive
+     AreEnteredBeforeAnythingInThemIsHit) // the condition that the padding must meet, for each primitive
 {
     Random random(2);
     int hits = 0;
@@ -180,7 +180,7 @@ TEST(Slabs,
                 const auto hit = intersect_primitive(scene, ray, ref::ShearedRay(ray), primitive);
                 if (!hit) continue;
                 ++hits;
-                // The smallest root there can be, and so the least padding: the primitive's own box.
+                // The smallest possible root, and so the least padding: the primitive's own box.
                 const double entry = ref::Slabs(ray, boxes[primitive]).entry(boxes[primitive]);
                 ASSERT_LE(entry, hit->t) << "scale " << place.scale << " ray " << i;
             }
@@ -234,10 +234,10 @@ Tree chain(std::span<const Aabb> boxes)
     return tree;
 }
 
-TEST(Traverse, GoesThroughATreeOfAnyDepth) // no stack of 64 that a chain overflows
+TEST(Traverse, GoesThroughATreeOfAnyDepth) // a fixed stack of 64 would overflow
 {
-    // Every box is inside the next: a ray from above meets the rest of the chain before the leaf, which
-    // waits on the stack until all below it is done; one from below meets both at once.
+    // Every box is inside the next. A ray from above enters the rest of the chain before the leaf,
+    // which stays on the stack until all below it is done; a ray from below enters both at once.
     std::vector<Aabb> boxes;
     const int n = 100000;
     for (int i = 0; i < n; ++i) boxes.push_back({Vec3(0), Vec3((i + 1) * 1e-6)});
@@ -264,7 +264,7 @@ TEST(Traverse, EntersTheNearerChildFirstAndNoBoxBeyondAHit)
             const auto hit = intersect(geometry, {Vec3(0, 0, from), Vec3(0, 0, 1.5 - from)}, &counts);
             ASSERT_TRUE(hit);
             EXPECT_EQ(hit->primitive, from < 1 ? 0u : 1u);
-            if (geometry.tree().leaf_count() == 1) continue; // both in one leaf: no choice
+            if (geometry.tree().leaf_count() == 1) continue; // both in one leaf: only one visit
             EXPECT_EQ(counts.nodes, 2u);                     // the root and the nearer leaf
             EXPECT_EQ(counts.primitives, 1u);
         }
@@ -280,11 +280,11 @@ TEST(Traverse, StopsWhenToldTo)
         ++tested;
         return -1.0;
     });
-    EXPECT_LE(tested, 8); // the rest of a leaf may follow
+    EXPECT_LE(tested, 8); // the other primitives of a leaf may follow
 }
 
 TEST(Traverse,
-     VisitsFarFewerNodesThanThereAre) // boxes that are all the scene's would give the same pictures
+     VisitsFarFewerNodesThanThereAre) // if every box were the whole scene's, the hits would be the same
 {
     const scenes::Scene scene = scene_of(trees_test::icosphere(5, 1)); // 20,480 triangles
     Random random(3);
@@ -298,7 +298,7 @@ TEST(Traverse,
             intersect(geometry, ray, &closest);
             occluded(geometry, ray, &any);
         }
-        EXPECT_LT(closest.nodes, 100 * rays); // some 4 log2 n
+        EXPECT_LT(closest.nodes, 100 * rays); // about 4 log2 n
         EXPECT_LT(closest.primitives, 20 * rays);
         EXPECT_LE(any.nodes, closest.nodes);
         EXPECT_GT(any.nodes, 0u);
@@ -307,8 +307,7 @@ TEST(Traverse,
 
 TEST(Traverse, PrimitivesOfOneCodeCostNoMoreThanTheyMust)
 {
-    // Pairs that share every bit of their codes: a builder that puts them into chains shows in the
-    // counts.
+    // Pairs with equal codes: if a builder put them into chains, the counts would show it.
     scenes::Scene scene = scene_of(trees_test::icosphere(4, 1));
     const std::vector<scenes::Triangle> once = scene.triangles;
     for (int copy = 1; copy < 8; ++copy)
@@ -325,7 +324,7 @@ TEST(Traverse, PrimitivesOfOneCodeCostNoMoreThanTheyMust)
             intersect(one, ray, &work_one);
             intersect(eight, ray, &work_eight);
         }
-        // Each leaf becomes a subtree of 15 nodes, entered whole.
+        // Each leaf becomes a subtree of 15 nodes, all of which are entered.
         EXPECT_LE(work_eight.primitives, 8 * work_one.primitives);
         EXPECT_LE(work_eight.nodes, 15 * work_one.nodes);
     }
