@@ -11,7 +11,7 @@ namespace {
 
 using Notices = std::vector<std::string>;
 
-const std::string transforms_stand = "the animation is not followed: the nodes' own transforms stand";
+const std::string transforms_stand = "the animation is not followed: the nodes' own transforms are used";
 
 std::string channel(const std::string& target)
 {
@@ -59,7 +59,7 @@ TEST(Animations, OfNodesInThePictureAreNoticed)
 TEST(Animations, OfOtherThingsInThePictureAreNoticed)
 {
     const auto values_stand = [](const std::string& element) {
-        return "the animation is not followed: the values in " + element + " stand";
+        return "the animation is not followed: the values in " + element + " are used";
     };
     for (const auto& [target, element] :
          {std::pair{"eye/xfov", "<camera id=\"eye\">"}, std::pair{"bulb/c.R", "<light id=\"bulb\">"},

@@ -218,7 +218,7 @@ TEST(PolygonFaults, PolygonsThatCrossThemselvesAreCounted)
     EXPECT_EQ(notices_of("0 0 0 4 4 0 4 0 0 0 3 0", 4, {"0 1 2 3", "0 2 1 3"}),
               std::vector<std::string>{
                   place_of_g + "1 polygon(s) cross themselves or their holes: cut into triangles "
-                               "around the first corner, which cover other than they do"});
+                               "around the first corner, which cover a different area"});
 }
 
 TEST(PolygonFaults, ZeroAreaTrianglesAreKeptAndSmallerPolygonsDropped)

@@ -499,7 +499,7 @@ const Mistake mistakes[] = {
      "<haze>: not known inside <glass>"},
     {"ProfileInTheWrongPlace", "<mesh>",
      "<mesh><extra><technique profile=\"CMU462\"><fur/></technique></extra>", "<fur/>",
-     "<fur>: the CMU462 profile says nothing of <mesh>"},
+     "<fur>: the CMU462 profile does not apply to <mesh>"},
     {"ProfileOutsideExtra", "<light id=\"panel\">",
      "<light id=\"panel\"><technique profile=\"CMU462\"/>", "<light id=\"panel\">",
      "<technique>: the CMU462 profile belongs in an <extra>"},
