@@ -1,4 +1,4 @@
-// Animations are not followed: there is a notice of those that would move or change the picture.
+// Animations are not followed: those that would move or change the picture give a notice.
 
 #include "tests/scenes/scene_text.h"
 
@@ -18,8 +18,8 @@ std::string channel(const std::string& target)
     return "<channel source=\"#gone\" target=\"" + target + "\"/>";
 }
 
-/// The notices of a room with one of each kind of element in use and one not in use, whose file has
-/// these <animation>s.
+/// The notices of a room whose file has these <animation>s, and of each kind of element one in use and
+/// one not in use.
 Notices notices_with(const std::string& animations)
 {
     transport_test::SceneText text;
