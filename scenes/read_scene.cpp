@@ -30,8 +30,7 @@ void check_root(const Element& root)
     const std::string_view version = required_attribute(root, "version");
     if (version != "1.4.1" && version != "1.4.0")
         fail(root, "version " + in_quotes(version) + " is not 1.4.1");
-    check_children(root,
-                   {"library_*", "scene"}); // what is in a library and never needed changes nothing
+    check_children(root, {"library_*", "scene"}); // libraries are read only where they are needed
 }
 
 } // namespace
