@@ -1,6 +1,6 @@
 // Reads those parts of COLLADA 1.4.1 [Khronos 2008] that describe a picture of surfaces and lights at
 // rest. The reader goes from the outside in:
-//   document     well-formed XML whose elements know their file, line and id
+//   document     well-formed XML, with the file, line and id of each element
 //   nodes        the tree of nodes below <scene>, with its transforms
 //   instances    geometries, lights and cameras, placed in the world
 //   geometries   (positions, polygons, triangulate), materials, lights, cameras: one element each

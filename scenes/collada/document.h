@@ -1,6 +1,6 @@
 #pragma once
 
-// An XML document. Its elements know their file and line and can be found by their id.
+// An XML document. Its elements have a file and a line, and can be found by their id.
 
 #include <tinyxml2.h>
 
