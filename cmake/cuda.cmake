@@ -1,6 +1,6 @@
-# PLUMBLINE_CUDA: AUTO uses nvcc where it is found, ON insists on it, OFF does without.
-# Sets PLUMBLINE_WITH_CUDA. Included by the top folder, because a language belongs to the folders below
-# the one that enables it, and programs outside cuda/ link device code.
+# PLUMBLINE_CUDA: AUTO uses nvcc if it is found, ON requires it, OFF builds without it.
+# Sets PLUMBLINE_WITH_CUDA. Included by the top folder: a language is enabled for a folder and the folders
+# below it, and programs outside cuda/ link device code.
 set(PLUMBLINE_WITH_CUDA OFF)
 if(NOT PLUMBLINE_CUDA STREQUAL "OFF")
     include(CheckLanguage)
@@ -13,11 +13,11 @@ if(NOT PLUMBLINE_CUDA STREQUAL "OFF")
 endif()
 
 if(PLUMBLINE_WITH_CUDA)
-    # "90" without a suffix: machine code for Hopper, and PTX for what comes after.
+    # "90" without a suffix: machine code for Hopper, and PTX for later GPUs.
     set(CMAKE_CUDA_ARCHITECTURES 90)
     set(CMAKE_CUDA_RUNTIME_LIBRARY Static)
     enable_language(CUDA)
-    # CMake 3.25 knows no C++20 for CUDA, and would pass no flag at all without a word.
+    # CMake 3.25 does not support C++20 for CUDA: without these options it passes no flag, with no warning.
     set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION -std=c++20)
     set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION -std=c++20)
     set(CMAKE_CUDA_STANDARD 20)

@@ -1,6 +1,6 @@
-# plumbline_tidy(TARGET): one file that includes all sources of a target of this folder, and, so that
-# clang-tidy finds its command line, a library of it that nobody builds (tests/lint/tidy.sh looks at these).
-# It makes names in anonymous namespaces unique in a folder, and the check three times as fast.
+# plumbline_tidy(TARGET): makes one file that includes all sources of a target of this folder, and a library
+# of this file that is never built: it gives clang-tidy a command line (tests/lint/tidy.sh checks these files).
+# So names in anonymous namespaces must be unique in a folder, and the check is three times as fast.
 function(plumbline_tidy target)
     get_target_property(sources ${target} SOURCES)
     set(content "")

@@ -14,7 +14,7 @@ struct Bounds {
     Vec3 max;
 };
 
-/// The smallest box around all triangles and spheres; none if there are none.
+/// The smallest box around all triangles and spheres; std::nullopt for a scene without them.
 std::optional<Bounds> bounds(const Scene& scene);
 
 } // namespace scenes

@@ -16,8 +16,8 @@
 namespace scenes {
 namespace {
 
-/// The unit normal; none where there is no area. Edges are brought to about 1 first: no square under- or
-/// overflows.
+/// The unit normal; std::nullopt for a triangle without area. The edges are first scaled to a length of
+/// about 1, so that no square under- or overflows.
 std::optional<Vec3> normal_of(const Triangle& triangle)
 {
     const auto& v = triangle.vertices;
@@ -38,8 +38,8 @@ double largest_coordinate(const Triangle& triangle)
     return largest;
 }
 
-/// The vector from `p` to the nearest point of a triangle: straight to its plane where that is inside,
-/// else to the nearest of its edges.
+/// The vector from `p` to the nearest point of a triangle: perpendicular to its plane if the foot point
+/// is inside, otherwise to the nearest edge.
 Vec3 to_nearest_point(const Triangle& triangle, const Vec3& normal, const Vec3& p)
 {
     const auto& v = triangle.vertices;
@@ -96,7 +96,7 @@ double perimeter_of(const Polygon& polygon)
     return sum;
 }
 
-/// The triangle in units of 2^exponent: no bit changes.
+/// The triangle in units of 2^exponent: scaling changes no bit.
 Triangle in_units_of(int exponent, Triangle triangle)
 {
     for (Vec3& v : triangle.vertices)
@@ -110,8 +110,9 @@ bool nearly_parallel(const std::optional<Vec3>& a, const std::optional<Vec3>& b)
     return a && b && !(glm::length(glm::cross(*a, *b)) > 0.01);
 }
 
-/// Of triangles that are nearly parallel; `normal` is that of the first. They are brought to about 1: an
-/// area is a product of two lengths, and its square, of four.
+/// Whether two triangles coincide that are nearly parallel; `normal` is that of the first. They are
+/// first scaled to a size of about 1: an area is a product of two lengths, and its square a product of
+/// four.
 bool coincide(const Triangle& a_in_file, const Vec3& normal, const Triangle& b_in_file, double on,
               double at_least)
 {
@@ -126,7 +127,7 @@ bool coincide(const Triangle& a_in_file, const Vec3& normal, const Triangle& b_i
         const Vec3 edge = a.vertices[(i + 1) % 3] - a.vertices[i];
         overlap = clipped(overlap, a.vertices[i], glm::normalize(glm::cross(normal, edge)));
     }
-    // Neighbours that share an edge overlap by rounding, in a strip no wider than the tolerance.
+    // Neighbours that share an edge overlap because of rounding, in a strip no wider than the tolerance.
     if (overlap.size() < 3 || area_of(overlap) <= tolerance * perimeter_of(overlap)) return false;
     return std::ranges::all_of(overlap, [&](const Vec3& corner) {
         return std::abs(glm::dot(corner - a.vertices[0], normal)) <= tolerance;
@@ -169,7 +170,7 @@ std::vector<NearSurface> surfaces_near(const Scene& scene, const Vec3& point, do
         const double distance = glm::length(to);
         const double on_it = on * std::max(size, largest);
         if (!(distance <= std::max(near, on_it))) return;
-        // Beside a triangle, in its plane, the sign of the height would be that of its rounding.
+        // In the plane of a triangle, beside it, the sign of the height would come from rounding.
         const double height = -glm::dot(to, normal);
         const int side = std::abs(height) <= on_it ? 0 : height > 0 ? 1 : -1;
         result.push_back({primitive, side, normal});
@@ -215,7 +216,7 @@ Coincidences coincidences(const Scene& scene, double on, bool* complete, double 
 {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
     const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
-    std::vector<std::optional<Vec3>> normals; // each is asked for by all its neighbours
+    std::vector<std::optional<Vec3>> normals; // computed once: each is used by all its neighbours
     normals.reserve(triangles);
     for (const Triangle& triangle : scene.triangles) normals.push_back(normal_of(triangle));
     const bool all =

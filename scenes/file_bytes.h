@@ -1,6 +1,6 @@
 #pragma once
 
-// The bytes of a file, whole.
+// Reads all bytes of a file.
 
 #include <filesystem>
 #include <istream>
@@ -9,12 +9,12 @@
 
 namespace scenes {
 
-/// The bytes of the regular file at `path`, at most 2^30. Throws SceneError, with the file's name, for a
-/// file that is missing, of another kind, larger, or not readable.
+/// The bytes of the regular file at `path`, at most 2^30. Throws SceneError, with the file's name, if
+/// the file is missing, not a regular file, larger, or not readable.
 std::string file_bytes(const std::filesystem::path& path);
 
-/// What is left in `stream`, at most 2^30 bytes. Throws SceneError, with `name`, for a stream that holds
-/// more or cannot be read.
+/// The rest of `stream`, at most 2^30 bytes. Throws SceneError, with `name`, if the stream holds more or
+/// cannot be read.
 std::string stream_bytes(std::istream& stream, const std::string& name);
 
 /// A hash of `bytes` in 16 hexadecimal digits: Scene::hash.

@@ -13,8 +13,8 @@ void frame_camera(Scene& scene);
 
 /// Gives a scene without a camera one that sees all of it: it looks along (-1, 2, -1), which shows the
 /// front, the right and the top of a scene whose z axis points up, with z up in the picture and a field
-/// of view of 45 degrees horizontally. Its eye is where frame_camera puts it. Adds a notice that says
-/// so. Throws SceneError if the scene has no geometry, or if the diagonal overflows.
+/// of view of 45 degrees horizontally. Its eye is where frame_camera puts it. Adds a notice.
+/// Throws SceneError if the scene has no geometry, or if the diagonal overflows.
 void add_camera(Scene& scene);
 
 } // namespace scenes

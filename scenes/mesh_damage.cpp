@@ -63,7 +63,7 @@ struct PlyHeader {
     std::vector<PlyElement> elements;
 };
 
-/// Takes the words of one line of the header into account; whether it understood them.
+/// Reads the words of one line of the header into `header`; returns false for a line that is not valid.
 bool read_line(const std::vector<std::string>& words, PlyHeader& header)
 {
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") return true;
@@ -90,12 +90,12 @@ bool read_line(const std::vector<std::string>& words, PlyHeader& header)
     return true;
 }
 
-/// What follows the header, number by number.
+/// The body of the file, after the header, number by number.
 class PlyBody {
 public:
     PlyBody(std::string_view bytes, PlyFormat format) : bytes_(bytes), format_(format) {}
 
-    /// Passes over one number; false if it is not there.
+    /// Skips one number; false if it is missing.
     bool skip(const PlyType& type)
     {
         if (format_ == PlyFormat::ascii) return number().has_value();
@@ -104,7 +104,7 @@ public:
         return true;
     }
 
-    /// The length of a list; none if it is not there or no whole number >= 0.
+    /// The length of a list; std::nullopt if it is missing or not a whole number >= 0.
     std::optional<std::uint64_t> length(const PlyType& type)
     {
         if (format_ == PlyFormat::ascii) {
@@ -143,7 +143,7 @@ private:
     PlyFormat format_;
 };
 
-/// The number in the first four bytes, which are there.
+/// The 32-bit little-endian number at the start of `bytes`, which has at least four bytes.
 std::size_t little_endian(std::string_view bytes)
 {
     std::size_t value = 0;
@@ -166,7 +166,7 @@ bool takes(std::istream& text, const std::vector<std::string_view>& expected)
     return true;
 }
 
-/// One solid or several, each of facets of three vertices.
+/// The damage in a text file: one solid or several, each of facets of three vertices.
 std::string damage_of_stl_text(const std::string& bytes)
 {
     std::istringstream text(bytes);
@@ -187,7 +187,7 @@ std::string damage_of_stl_text(const std::string& bytes)
     return "";
 }
 
-/// Passes over one element; false if something of it is missing.
+/// Skips one element; false if a part of it is missing.
 bool skip(PlyBody& body, const PlyElement& element)
 {
     for (const PlyProperty& property : element.properties) {

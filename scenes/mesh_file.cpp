@@ -1,4 +1,4 @@
-// Which files hold meshes, by their names.
+// Recognises mesh files by their names.
 
 #include "scenes/read_mesh.h"
 

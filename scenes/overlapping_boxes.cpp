@@ -30,7 +30,7 @@ public:
                 if (boxes_[i].min[axis] <= middle) left.push_back(i);
                 if (boxes_[i].max[axis] >= middle) right.push_back(i);
             }
-            // Worth it only if both parts are clearly smaller.
+            // Divide only if both parts are clearly smaller.
             if (4 * std::max(left.size(), right.size()) > 3 * members.size()) continue;
             const bool all_left = among(left);
             return among(right) && all_left;
@@ -44,7 +44,7 @@ private:
         return 0.5 * boxes_[i].min + 0.5 * boxes_[i].max;
     }
 
-    /// The axes, that along which the centres spread most first.
+    /// The axes in the order of the spread of the centres, largest first.
     [[nodiscard]] std::array<int, 3> axes_by_extent(const std::vector<std::uint32_t>& members) const
     {
         Vec3 low = center(members[0]);

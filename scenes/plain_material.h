@@ -1,6 +1,6 @@
 #pragma once
 
-// The material of surfaces whose material is not looked at.
+// The material of all surfaces if materials are not read.
 
 #include "scenes/scene.h"
 

@@ -6,8 +6,7 @@
 
 namespace scenes {
 
-/// For people: "triangle 5 (material "wall")". Triangles and spheres are counted from 1, each by
-/// themselves.
+/// For people: "triangle 5 (material "wall")". Triangles and spheres are counted separately, from 1.
 inline std::string primitive_name(const Scene& scene, std::uint32_t primitive)
 {
     const bool is_triangle = primitive < scene.triangles.size();

@@ -40,7 +40,7 @@ bool is_finite(const Vec3& v)
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Takes the meshes of a file to the world, node by node.
+/// Transforms the meshes of a file to world coordinates, node by node.
 class Collector {
 public:
     Collector(const aiScene& file, std::string name, Scene& scene)
@@ -68,7 +68,7 @@ public:
              " polygon(s) are not planar: cut into triangles as their projection on the mean plane");
         note(faults_.crossed,
              " polygon(s) cross themselves: cut into triangles around the first corner, "
-             "which cover other than they do");
+             "which cover a different area");
     }
 
 private:
@@ -111,7 +111,7 @@ private:
         return positions;
     }
 
-    /// A mirroring transform turns the winding over as well, as in a COLLADA file.
+    /// A mirroring transform also reverses the winding, as in a COLLADA file.
     void place(const std::vector<polygons::Corners>& triangles, const glm::dmat4& to_world)
     {
         if (scene_->triangles.size() + triangles.size() > most_triangles)
@@ -135,8 +135,8 @@ private:
     std::size_t lines_ = 0;
 };
 
-/// Keeps what Assimp says of triangles that it leaves out: it does so only in its log, of which there is
-/// one in a process.
+/// Listens for messages that Assimp has dropped triangles: these messages appear only in its log, and a
+/// process has only one log.
 class DropListener {
 public:
     DropListener()
@@ -166,7 +166,7 @@ private:
     bool dropped_ = false;
 };
 
-/// The first line of what Assimp says.
+/// The first line of a message of Assimp.
 std::string first_line(const std::string& text)
 {
     return text.substr(0, text.find_first_of("\r\n"));
@@ -192,7 +192,7 @@ Scene read_mesh(const std::filesystem::path& path)
 
     const DropListener listener;
     Assimp::Importer importer;
-    // No step that joins, drops or reorders triangles: this one only looks at them.
+    // No step that joins, drops or reorders triangles: this one only checks them.
     const aiScene* file = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
     if (file == nullptr) throw SceneError(name + ": " + first_line(importer.GetErrorString()));
     if (listener.dropped())

@@ -1,4 +1,4 @@
-// What stands in for read_mesh.cpp where Assimp was not found.
+// Replaces read_mesh.cpp in a build without Assimp.
 
 #include "scenes/read_mesh.h"
 

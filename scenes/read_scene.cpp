@@ -1,14 +1,15 @@
-// COLLADA 1.4.1 [Khronos 2008], as much of it as describes a picture of surfaces and lights that stand
-// still. The reader goes from the outside in:
-//   document     well-formed XML whose elements know their file, line and id
+// Reads those parts of COLLADA 1.4.1 [Khronos 2008] that describe a picture of surfaces and lights at
+// rest. The reader goes from the outside in:
+//   document     well-formed XML, with the file, line and id of each element
 //   nodes        the tree of nodes below <scene>, with its transforms
 //   instances    geometries, lights and cameras, placed in the world
 //   geometries   (positions, polygons, triangulate), materials, lights, cameras: one element each
-//   animations   not followed; a notice of those that act on something in the picture
-// Elements are read when an instance needs them: what nothing refers to is not looked at and cannot be
-// wrong; ids given twice are an error only where a reference to them is followed. Lengths are those of
-// the file (<unit> is ignored), and so is the frame: transforms are taken as they are written,
-// whatever <up_axis> says.
+//   animations   not followed; a notice for each that acts on an element of the picture
+//
+// An element is read when an instance needs it. Elements that nothing refers to are not read, so errors
+// in them are not reported. Ids that are given twice are an error only where a reference to them is
+// followed. Lengths are those of the file (<unit> is ignored). So are the axes: transforms are applied
+// as written, and <up_axis> is ignored.
 
 #include "scenes/read_scene.h"
 
@@ -29,8 +30,7 @@ void check_root(const Element& root)
     const std::string_view version = required_attribute(root, "version");
     if (version != "1.4.1" && version != "1.4.0")
         fail(root, "version " + in_quotes(version) + " is not 1.4.1");
-    check_children(root,
-                   {"library_*", "scene"}); // what is in a library and never needed changes nothing
+    check_children(root, {"library_*", "scene"}); // libraries are read only where they are needed
 }
 
 } // namespace
@@ -51,7 +51,7 @@ Scene parse_scene(std::string_view xml, const std::string& file_name, Parts part
     Instances instances(document, scene, parts);
     NodeWalk(document, instances).visit_scene(document.target(instance, "url", "visual_scene"));
     instances.finish();
-    notice_animations(document, scene.notices); // now it is known what is in use
+    notice_animations(document, scene.notices); // after reading: now the elements in use are known
     return scene;
 }
 

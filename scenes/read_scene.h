@@ -1,8 +1,8 @@
 #pragma once
 
-// Reads COLLADA 1.4.1 files with the CMU462 technique profile. The head of read_scene.cpp says where
-// each part of the format is read and what is made of it. What would change the picture and is not
-// understood is an error; what could not (an editor's data) is ignored.
+// Reads COLLADA 1.4.1 files with the CMU462 technique profile. The head of read_scene.cpp lists the file
+// that reads each part of the format. Elements that would change the picture and are not supported are
+// errors; elements that cannot change it (an editor's data) are ignored.
 
 #include "scenes/scene.h"
 
@@ -20,12 +20,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// How much of a file is read.
+/// The parts of a file that are read.
 enum class Parts {
     all,
-    /// What a tree is built over: triangles and spheres, all of one grey material, and the camera.
-    /// Lights (area lights too) and materials are not read, so nothing in them is an error, and a camera
-    /// that cannot be read is a notice.
+    /// The input of a tree: triangles and spheres, all of one grey material, and the camera. Lights
+    /// (area lights too) and materials are not read, so errors in them are not reported, and a camera
+    /// that cannot be read gives a notice.
     geometry
 };
 

@@ -1,7 +1,7 @@
-// What a fixed distance does to rays that leave a surface, over scene scales, and what an error bound
-// does. In single precision, where the question arises: a sphere of radius 1 at distance 10 from the
+// Compares a fixed distance with an error bound for rays that leave a surface, at several scene scales.
+// In single precision, where the difference is large: a sphere of radius 1 at distance 10 from the
 // origin, all lengths times the scale.
-// figure_epsilon --help says how to call it.
+// Usage: figure_epsilon --help
 
 #include "docs/figures/program.h"
 #include "ref/transport/sampling.h"
@@ -39,8 +39,8 @@ std::optional<float> intersect(const Vec3f& origin, const Vec3f& d, const Vec3f&
 }
 
 struct Outcome {
-    double meets_itself = 0.0; // of rays that leave the sphere outwards: dark specks and rings
-    double misses = 0.0;       // of rays to a plate one hundredth of the radius above: light leaks
+    double meets_itself = 0.0; // share of outward rays that hit the sphere again: dark specks and rings
+    double misses = 0.0;       // share that start beyond a plate at radius / 100 above: light leaks
 };
 
 /// `epsilon` < 0: no fixed distance along the ray, but the bound of ref/trees/geometry.cpp along the
@@ -49,7 +49,7 @@ Outcome measure(float scale, float epsilon)
 {
     const float radius = scale;
     const Vec3f center = scale * Vec3f(6.0F, -5.0F, 6.2F);
-    std::mt19937 random(1); // fixed: the table can be drawn again
+    std::mt19937 random(1); // fixed, so that the table can be reproduced
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     Outcome outcome;
     constexpr int count = 400'000;
@@ -58,7 +58,8 @@ Outcome measure(float scale, float epsilon)
         const Vec3f n(ref::sample_sphere(next(), next()));
         const Vec3f p = center + radius * n;
         const ref::Frame frame(glm::normalize(glm::dvec3(n)));
-        const glm::dvec3 local = ref::sample_sphere(next(), next()); // uniform: grazing rays count
+        const glm::dvec3 local =
+            ref::sample_sphere(next(), next()); // uniform, so that there are grazing rays
         const Vec3f w(glm::normalize(frame.to_world({local.x, local.y, std::abs(local.z)})));
         Vec3f origin = p + epsilon * w;
         if (epsilon < 0.0F) {

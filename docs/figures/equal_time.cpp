@@ -1,8 +1,8 @@
-// Where does it pay to trace from both ends? The error of path tracing, bidirectional path tracing and
-// light tracing after one second of CPU time, on each scene; and where the time of a bidirectional
-// sample goes. Measured by rounds, with intervals (rounds.h).
+// Where does bidirectional path tracing pay? Measures, on each scene, the error of path tracing,
+// bidirectional path tracing and light tracing after one second of CPU time, and how the time of a
+// bidirectional sample is shared. Measured in rounds, with intervals (rounds.h).
 //
-// figure_equal_time --help says how to call it. 96 x 64 pixels, at most 6 edges, one thread.
+// Usage: figure_equal_time --help. 96 x 64 pixels, at most 6 edges, one thread.
 
 #include "cli/rounds.h"
 #include "docs/figures/measure.h"
@@ -39,10 +39,10 @@ constexpr std::array methods = {Method{"path", ref::trace_path},
 struct Timed {
     images::Image image;
     double samples;
-    double seconds; // that they took
+    double seconds; // time for these samples
 };
 
-/// As many samples per pixel as fit into the time; what was begun and not finished does not count.
+/// As many samples per pixel as fit into the time; unfinished batches do not count.
 Timed render_for(const ref::World& world, ref::Integrator integrator, std::uint64_t seed, double seconds)
 {
     images::Film film(width, height);
@@ -109,8 +109,8 @@ Shares shares_of_time(const ref::World& world, std::uint64_t seed)
     return spent;
 }
 
-/// Light that reaches the eye by way of a mirror or glass is beyond light tracing: a pinhole is hit by
-/// no walk, and a delta lobe joins nothing to it.
+/// False if the scene has mirrors or glass: light tracing cannot find light that reaches the eye by way
+/// of them, because no walk hits a pinhole, and a vertex with a delta lobe cannot be joined to it.
 bool light_tracing_sees_everything(const scenes::Scene& scene)
 {
     const auto is_smooth = [](const scenes::Material& m) {
@@ -142,7 +142,7 @@ Rounds measure(const scenes::Scene& scene, const figures::RoundOptions& options,
             const Timed timed =
                 render_for(world, methods[i].integrator, seed_of(round, i), options.seconds);
             values.rates[i].push_back(timed.samples / timed.seconds);
-            // The error of independent samples is inverse to the time: after one second of it.
+            // The error of independent samples is inverse to the time. Scaled to one second.
             return figures::relative_mean_square_error(timed.image, reference) * timed.seconds;
         });
     measurements.emplace_back([&](std::size_t round) {
@@ -155,7 +155,7 @@ Rounds measure(const scenes::Scene& scene, const figures::RoundOptions& options,
     return values;
 }
 
-/// What the interval of the quotient of errors allows to say.
+/// The method with less error, if the interval of the quotient of errors excludes 1.
 std::string verdict(const cli::Ratio& path_over_bdpt)
 {
     if (!path_over_bdpt.decided()) return "not decided";

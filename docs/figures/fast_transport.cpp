@@ -1,8 +1,8 @@
-// How fast is the fast path? Samples per CPU second beside the reference, the error of path tracing and
-// bidirectional path tracing after one second, what a second thread brings, and what kernels gain by
-// leaving out what a scene does not have. Measured by rounds, with intervals (rounds.h).
+// How fast is the fast path? Measures samples per CPU second beside the reference, the error of path
+// tracing and bidirectional path tracing after one second, the gain from a second thread, and the gain
+// from kernels without the features that a scene lacks. Measured in rounds, with intervals (rounds.h).
 //
-// figure_fast_transport --help says how to call it. 240 x 160 pixels, at most 6 edges.
+// Usage: figure_fast_transport --help. 240 x 160 pixels, at most 6 edges.
 
 #include "cli/rounds.h"
 #include "cuda/launch/renderer.h"
@@ -38,13 +38,13 @@ struct Rendered {
     double seconds;
 };
 
-/// Batches for as long as `seconds` of `clock`; `render_batch` takes a number.
+/// Renders batches for `seconds` of `clock`; `render_batch` takes the number of a batch.
 template <class RenderBatch>
 Rendered render_for(double seconds, double (*clock)(), const RenderBatch& render_batch)
 {
     images::Film film(width, height);
     std::uint64_t number = 0;
-    render_batch(number); // caches and launch sizes
+    render_batch(number); // not timed: fills caches and adapts the size of launches
     const double start = clock();
     while (clock() - start < seconds) film.add_batch(render_batch(++number));
     const double passed = clock() - start;
@@ -85,7 +85,7 @@ constexpr std::array integrators = {fast::Integrator::path, fast::Integrator::bd
 constexpr std::array names = {"path", "bdpt"};
 constexpr std::array reference_integrators = {ref::trace_path, ref::trace_bidirectionally};
 
-/// One scene in the first table: rates, and what they are worth.
+/// Prints one scene in the first table: rates and efficiencies.
 void compare(const scenes::Scene& scene, const figures::RoundOptions& options, std::mt19937_64& random)
 {
     const images::Image truth =
@@ -126,7 +126,7 @@ void compare(const scenes::Scene& scene, const figures::RoundOptions& options, s
     std::fflush(stdout);
 }
 
-/// One scene in the second table: kernels that can do more than the scene needs.
+/// Prints one scene in the second table: kernels with more features than the scene needs.
 void measure_needs(const scenes::Scene& scene, const figures::RoundOptions& options,
                    std::mt19937_64& random)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-// How renders are measured: their time and their error.
+// Measures the time and the error of renders.
 
 #include "images/image.h"
 
@@ -8,7 +8,7 @@
 
 namespace figures {
 
-/// CPU time that this process has taken so far.
+/// CPU time of this process so far, in seconds.
 inline double cpu_seconds()
 {
     timespec now{};
@@ -17,7 +17,7 @@ inline double cpu_seconds()
 }
 
 /// Mean over pixels and channels of (image - reference)^2 / (reference^2 + 1e-4 m^2), m the mean of the
-/// reference: black pixels must not divide by zero.
+/// reference. The term with m avoids a division by zero at black pixels.
 inline double relative_mean_square_error(const images::Image& image, const images::Image& reference)
 {
     images::Rgb mean(0.0);

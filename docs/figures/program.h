@@ -1,7 +1,7 @@
 #pragma once
 
-// What the programs in this folder have in common with `plumbline`: --help, one line for an error, and
-// exit status 2 for it.
+// The command line of the programs in this folder, as in `plumbline`: --help, errors of one line, and
+// exit status 2 for an error.
 
 #include "scenes/frame.h"
 #include "scenes/read_scene.h"
@@ -19,7 +19,7 @@
 
 namespace figures {
 
-/// Reads the command line into the options of `app`, then does `work`. The exit status.
+/// Reads the command line into the options of `app`, then calls `work`. Returns the exit status.
 template <class Work>
 int run(CLI::App& app, int argc, char** argv, const Work& work)
 {
@@ -45,7 +45,7 @@ int run(CLI::App& app, int argc, char** argv, const Work& work)
 /// The scenes that a program measures.
 struct SceneFiles {
     std::vector<std::string> as_they_are;
-    std::vector<std::string> framed; // whose cameras are moved back to where they see everything
+    std::vector<std::string> framed; // their cameras are moved back until they see everything
 };
 
 inline void add_scene_options(CLI::App& app, SceneFiles& files)
@@ -55,8 +55,8 @@ inline void add_scene_options(CLI::App& app, SceneFiles& files)
                    "COLLADA files whose cameras are moved back to where they see everything");
 }
 
-/// The scene in `file`, with a camera for certain, moved back to where it sees everything if `framed`.
-/// Throws scenes::SceneError, and std::invalid_argument where there is no camera.
+/// The scene in `file`, which must have a camera. If `framed`, the camera is moved back until it sees
+/// everything. Throws scenes::SceneError, and std::invalid_argument for a scene without a camera.
 inline scenes::Scene read_scene(const std::string& file, bool framed = false)
 {
     scenes::Scene scene = scenes::read_scene(file);
@@ -66,7 +66,7 @@ inline scenes::Scene read_scene(const std::string& file, bool framed = false)
     return scene;
 }
 
-/// All of them, as read_scene reads them. Throws std::invalid_argument if there is none.
+/// All scenes, as by read_scene. Throws std::invalid_argument if there is no file.
 inline std::vector<scenes::Scene> read_scenes(const SceneFiles& files)
 {
     std::vector<scenes::Scene> all;
@@ -76,12 +76,12 @@ inline std::vector<scenes::Scene> read_scenes(const SceneFiles& files)
     return all;
 }
 
-/// How rounds are measured.
+/// Options of a measurement in rounds.
 struct RoundOptions {
     std::size_t rounds = 5;
-    double seconds = 0.5;           // that each picture takes
-    double reference_seconds = 6.0; // of the picture that errors are measured by
-    std::uint64_t seed = 1;         // of the reference; the pictures and the order have others
+    double seconds = 0.5;           // time for each picture
+    double reference_seconds = 6.0; // time for the picture with which the others are compared
+    std::uint64_t seed = 1;         // of the reference; pictures and order have other seeds
 };
 
 inline void add_round_options(CLI::App& app, RoundOptions& options)

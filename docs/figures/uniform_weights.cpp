@@ -1,7 +1,7 @@
-// What happens to glass when every path is shared equally among all strategies that one can name,
-// whether or not they can find it: the weights 1 / (i + j + 1) of a 2015 course report, for i eye and j
-// light vertices after the first, beside the right ones and beside path tracing.
-// figure_uniform_weights --help says how to call it.
+// Shows the defect of uniform weights on glass. The weights 1 / (i + j + 1) of a 2015 course report, for
+// i eye and j light vertices after the first, share every path equally among all strategies, possible or
+// not. They are compared with the right weights and with path tracing.
+// Usage: figure_uniform_weights --help
 
 #include "docs/figures/program.h"
 #include "images/file_ending.h"
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int width = 240;
 constexpr int height = 160;
-constexpr int runs = 12; // independent ones, for standard errors
+constexpr int runs = 12; // independent runs, for standard errors
 constexpr int samples_per_run = 8;
 constexpr int max_edges = 6;
 
@@ -33,7 +33,7 @@ enum Region { diffuse, mirror, glass, regions };
 constexpr std::array<const char*, regions> region_names = {"diffuse surfaces", "mirror sphere",
                                                            "glass sphere"};
 
-/// What the centre of a pixel sees.
+/// The region that the ray through the centre of a pixel hits first.
 Region region_of(const ref::World& world, int x, int y)
 {
     const auto hit = intersect(world.geometry, world.camera.ray({x + 0.5, y + 0.5}));
@@ -43,7 +43,8 @@ Region region_of(const ref::World& world, int x, int y)
     return std::holds_alternative<scenes::Mirror>(material) ? mirror : diffuse;
 }
 
-/// Of k edges, k strategies s = 1 ... k are counted, each with 1 / k; light seen directly is Case I.
+/// For k edges, the k strategies s = 1 ... k are counted, each with the weight 1 / k. Directly seen
+/// emitters are Case I, with s = 0.
 images::Image with_uniform_weights(const images::StrategySums& unweighted)
 {
     images::Image sum(width, height);
@@ -56,7 +57,7 @@ images::Image with_uniform_weights(const images::StrategySums& unweighted)
     return sum;
 }
 
-/// One run of each method. The two weightings share their paths: they differ in the weights alone.
+/// One run of each method. The two weightings use the same paths and differ only in the weights.
 std::array<images::Image, methods> rendered(const ref::World& world, std::uint64_t run)
 {
     const unsigned threads = std::max(1U, std::thread::hardware_concurrency());
@@ -145,7 +146,7 @@ void draw(const scenes::Scene& scene, const std::string& out)
 int main(int argc, char** argv)
 {
     CLI::App app(
-        "Draws what uniform weights, the balance heuristic and path tracing show, side by side, "
+        "Draws pictures by uniform weights, by the balance heuristic and by path tracing side by side, "
         "and prints the table of docs/bdpt.md",
         "figure_uniform_weights");
     std::string scene;

@@ -8,8 +8,7 @@ namespace scenes::collada {
 namespace {
 
 /// The elements whose id `target` begins with: "id/sid", "id/sid.member", "id/sid(i)", "id.member",
-/// "id(i)" or "id". An id may have dots itself, but no parentheses: of the dots only the last can
-/// begin a member.
+/// "id(i)" or "id". An id may contain dots, but no parentheses; only the last dot can begin a member.
 const std::vector<const Element*>& targets_of(const Document& document, std::string_view target)
 {
     const std::string_view first = target.substr(0, target.find('/'));
@@ -19,7 +18,7 @@ const std::vector<const Element*>& targets_of(const Document& document, std::str
     return document.with_id(first.substr(0, index != first.npos ? index : first.rfind('.')));
 }
 
-/// Whether what stands in `element`, or at it, is the transform of a node.
+/// Whether `element` is the transform of a node, or lies inside one.
 bool is_of_node(const Element& element)
 {
     for (const tinyxml2::XMLNode* node = &element; node->ToElement() != nullptr; node = node->Parent())
@@ -44,7 +43,7 @@ public:
     }
 
 private:
-    /// `elements` have the id that `channel` targets: if several, one in use is reason enough.
+    /// `elements` have the id that `channel` targets. Of several, one in use is enough.
     void notice(const Element& channel, const std::vector<const Element*>& elements)
     {
         const auto found = std::find_if(elements.begin(), elements.end(), [&](const Element* element) {
@@ -53,8 +52,8 @@ private:
         if (found == elements.end() || !noticed_.insert(*found).second) return;
         const Element& element = **found;
         notices_->push_back(place(channel) + "the animation is not followed: " +
-                            (is_of_node(element) ? "the nodes' own transforms stand"
-                                                 : "the values in " + describe(element) + " stand"));
+                            (is_of_node(element) ? "the nodes' own transforms are used"
+                                                 : "the values in " + describe(element) + " are used"));
     }
 
     const Document* document_;

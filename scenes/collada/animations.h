@@ -1,6 +1,6 @@
 #pragma once
 
-// Animations: they are not followed. What they would move stands as its own element says.
+// Animations are not followed. An animated element keeps the values that stand in the element itself.
 
 #include "scenes/collada/document.h"
 
@@ -9,10 +9,10 @@
 
 namespace scenes::collada {
 
-/// Adds to `notices` one line for each element in use that a <channel> of a <library_animations> below
-/// the root targets, naming the first such channel. An element is in use if Document::is_in_use says so:
-/// to be called when the scene has been read. Animations of anything else change nothing and are not
-/// looked at further, well-formed or not.
+/// Adds to `notices` one line for each element in use that is the target of a <channel> of a
+/// <library_animations> below the root. The line names the first such channel. Document::is_in_use
+/// defines the elements in use, so call this after the scene has been read. Animations of other elements
+/// change nothing and are not read further, well-formed or not.
 void notice_animations(const Document& document, std::vector<std::string>& notices);
 
 } // namespace scenes::collada

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which material each symbol of a geometry stands for in one instance of it.
+// The materials that one instance of a geometry binds to the symbols of the geometry.
 
 #include "scenes/collada/document.h"
 
@@ -10,8 +10,8 @@
 
 namespace scenes::collada {
 
-/// The <bind_material> of an <instance_geometry>. What it binds to a symbol is read when a surface needs
-/// it.
+/// The <bind_material> of an <instance_geometry>. The material bound to a symbol is read when a surface
+/// needs it.
 class MaterialBinding {
 public:
     MaterialBinding(const Document& document, const Element& instance);
@@ -19,7 +19,7 @@ public:
     /// The <material> for `part`, a <triangles>, <polylist> or <polygons> of the geometry; null if the
     /// part names no symbol or the instance does not bind it. Fails if it binds the symbol twice.
     [[nodiscard]] const Element* material_of(const Element& part) const;
-    /// The one <material> bound, whatever its symbol; null if there is none. Fails if there are several.
+    /// The only <material> bound, for any symbol; null if there is none. Fails if there are several.
     [[nodiscard]] const Element* only_material() const;
 
 private:

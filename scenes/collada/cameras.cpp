@@ -38,7 +38,7 @@ Camera read_camera(const Element& camera, const Element& instance, const Matrix&
     const Vec3 eye(to_world[3]);
     if (linear.singular || !is_finite(eye)) fail(instance, "the transform of its node has no inverse");
     if (!linear.orthogonal) fail(instance, "the transform of its node shears the camera");
-    // Perpendicular to the digits of the file; now to those of a double.
+    // The axes are perpendicular to the precision of the file; this makes them so to that of a double.
     const Vec3 backward = linear.axes[2];
     const Vec3 up = unit(linear.axes[1] - glm::dot(linear.axes[1], backward) * backward);
     const Vec3 right = linear.mirrored ? glm::cross(backward, up) : glm::cross(up, backward);

@@ -39,7 +39,8 @@ std::string words_of(std::string_view error_name)
     return words;
 }
 
-/// Looks at every node once: collects the ids, refuses what tinyxml2 lets pass and XML or we do not.
+/// Visits every node once: collects the ids, and refuses nodes that tinyxml2 accepts but XML or this
+/// reader does not.
 class Inspector : public tinyxml2::XMLVisitor {
 public:
     explicit Inspector(IdIndex& elements_by_id) : elements_by_id_(&elements_by_id) {}
@@ -86,7 +87,7 @@ void check_encoding(std::string_view xml, const std::string& file_name)
     fail_at_line(file_name, line, "byte " + std::to_string(bad) + " is not part of a text in UTF-8");
 }
 
-/// One COLLADA element, and beside it only comments and the XML declaration.
+/// Checks for one COLLADA element, with only comments and the XML declaration beside it.
 void check_top_level(const tinyxml2::XMLDocument& xml, const std::string& file_name)
 {
     const Element* root = xml.RootElement();

@@ -1,6 +1,6 @@
 #pragma once
 
-// An XML document whose elements know their file and line, and can be found by their id.
+// An XML document. Its elements have a file and a line, and can be found by their id.
 
 #include <tinyxml2.h>
 
@@ -16,10 +16,10 @@ namespace scenes::collada {
 
 using Element = tinyxml2::XMLElement;
 
-/// The document and an index of its ids. Throws SceneError for anything but well-formed UTF-8 without
-/// a document type declaration (entities could make a small file large), for elements nested deeper than
-/// 98 (tinyxml2 counts the document and stops at 100), and for an attribute given twice. An id may be
-/// given to several elements as long as no reference to it has to be followed.
+/// The document and an index of its ids. The text must be well-formed XML in UTF-8. Throws SceneError if
+/// it is not, for a document type declaration (with entities a small file could become large), for
+/// elements nested deeper than 98 (tinyxml2 counts the document and stops at 100), and for an attribute
+/// given twice. Several elements may have the same id if no reference to it is followed.
 class Document {
 public:
     Document(std::string_view xml, const std::string& file_name);
@@ -35,23 +35,23 @@ public:
     /// The elements of that id, in the order of the file; none if `id` is empty.
     [[nodiscard]] const std::vector<const Element*>& with_id(std::string_view id) const;
 
-    /// Whether target() has found `element` so far, or an element that it stands in.
+    /// Whether target() has found `element` so far, or an element that contains it.
     [[nodiscard]] bool is_in_use(const Element& element) const;
 
 private:
     std::unique_ptr<std::string> file_name_; // its address is known to the document
     std::unique_ptr<tinyxml2::XMLDocument> xml_;
     std::unordered_map<std::string_view, std::vector<const Element*>> elements_by_id_;
-    mutable std::unordered_set<const Element*> targets_; // what target() has found
+    mutable std::unordered_set<const Element*> targets_; // the elements that target() has found
 };
 
-/// `element` as a message shows it: `<light id="Sun">`.
+/// `element` as messages show it: `<light id="Sun">`.
 std::string describe(const Element& element);
 /// The beginning of every message about `element`: `file.dae:12: <light id="Sun">: `.
 std::string place(const Element& element);
 /// Throws SceneError with place(at) and `what`.
 [[noreturn]] void fail(const Element& at, const std::string& what);
-/// `text` cut short, with control characters replaced: fit for a message of one line.
+/// `text` cut short, with control characters replaced, for a message of one line.
 std::string legible(std::string_view text);
 /// The same between quotation marks.
 std::string in_quotes(std::string_view text);
@@ -70,12 +70,12 @@ const Element* optional_child(const Element& parent, const char* name);
 /// The only child of that name; fails unless there is exactly one.
 const Element& required_child(const Element& parent, const char* name);
 
-/// Where the CMU462 profile can say something.
+/// Whether the CMU462 profile may describe an element.
 enum class Cmu462 { refused, understood };
 /// Fails at the first child of `parent` that is not one of `known`, where "library_*" stands for every
-/// name that begins with "library_"; <asset> and <extra> are always known, but what <extra> says in the
-/// CMU462 profile must be `understood`. A <technique> of that profile anywhere else would be overlooked:
-/// it fails.
+/// name that begins with "library_". <asset> and <extra> are always known, but an <extra> in the CMU462
+/// profile is allowed only if `profile` is `understood`. A <technique> of that profile in any other
+/// place would be overlooked, so it fails.
 void check_children(const Element& parent, std::initializer_list<std::string_view> known,
                     Cmu462 profile = Cmu462::refused);
 /// The <technique profile="CMU462"> in an <extra> of `owner`, or null if there is none or it is empty.

@@ -15,7 +15,7 @@ std::string_view trimmed(std::string_view text)
     return text.substr(0, text.find_last_not_of(white_space) + 1);
 }
 
-/// Whether `name` is `known`, or begins with it up to a final star.
+/// Whether `name` equals `known`, or begins with the part of `known` before a final star.
 bool matches(std::string_view name, std::string_view known)
 {
     return known.ends_with('*') ? name.starts_with(known.substr(0, known.size() - 1)) : name == known;
@@ -30,7 +30,7 @@ std::string legible(std::string_view text)
     std::replace_if(
         result.begin(), result.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
     if (text.size() > longest) {
-        // A UTF-8 sequence that the cut went through goes as a whole.
+        // A UTF-8 sequence that would be cut in the middle is removed as a whole.
         const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
         if (continues(text[longest])) {
             while (continues(result.back())) result.pop_back();
@@ -129,7 +129,8 @@ void check_children(const Element& parent, std::initializer_list<std::string_vie
     }
     if (profile == Cmu462::understood) return;
     if (const Element* technique = cmu462_technique(parent))
-        fail(*technique->FirstChildElement(), "the CMU462 profile says nothing of " + describe(parent));
+        fail(*technique->FirstChildElement(),
+             "the CMU462 profile does not apply to " + describe(parent));
 }
 
 const Element* cmu462_technique(const Element& owner)

@@ -20,7 +20,7 @@ LocalSphere read_sphere(const Element& technique)
     return {number(radius)};
 }
 
-/// The vertices of a mesh: its <vertices> element and the points that it stands for.
+/// The vertices of a mesh: its <vertices> element and their positions.
 struct Vertices {
     const Element* element;
     std::vector<Vec3> positions;
@@ -47,7 +47,7 @@ void report(const polygons::PolygonFaults& faults, const Element& geometry,
     note(faults.small_holes, " hole(s) with fewer than three corners: dropped");
     note(faults.crossed,
          " polygon(s) cross themselves or their holes: cut into triangles around the first "
-         "corner, which cover other than they do");
+         "corner, which cover a different area");
 }
 
 Mesh read_mesh(const Document& document, const Element& mesh, polygons::PolygonFaults& faults,

@@ -22,16 +22,16 @@ struct Part {
 
 using Mesh = std::vector<Part>;
 
-/// Around the local origin.
+/// A sphere around the local origin.
 struct LocalSphere {
     double radius;
 };
 
 using Geometry = std::variant<Mesh, LocalSphere>;
 
-/// What a <geometry> means. <extra><technique profile="CMU462"><sphere> takes the place of a mesh.
-/// Normals are ignored: surfaces are shaded with their geometric normal. Lines have no area and are
-/// ignored with a notice. Polygon faults are reported in `notices`, one line per geometry and fault.
+/// Reads a <geometry>. <extra><technique profile="CMU462"><sphere> takes the place of a mesh. Normals
+/// are ignored: surfaces are shaded with their geometric normal. Lines have no area and are ignored with
+/// a notice. Polygon faults are reported in `notices`, one line per geometry and fault.
 Geometry read_geometry(const Document& document, const Element& geometry,
                        std::vector<std::string>& notices);
 
@@ -42,7 +42,7 @@ public:
         : document_(&document), notices_(&notices)
     {}
 
-    /// What the <geometry> element holds. The reference stays valid.
+    /// The content of the <geometry> element. The reference stays valid.
     const Geometry& get(const Element& geometry);
 
 private:

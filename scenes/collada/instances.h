@@ -1,7 +1,7 @@
 #pragma once
 
-// What nodes place in the scene: geometries, lights and cameras, taken from their local frame to the
-// world.
+// Geometries, lights and cameras that nodes place in the scene, transformed from their local frame to
+// the world.
 
 #include "scenes/collada/document.h"
 #include "scenes/collada/geometries.h"
@@ -21,7 +21,7 @@ namespace scenes::collada {
 /// Adds instances to a scene, each as its instance element says and with the transform of its node.
 class Instances {
 public:
-    /// With Parts::geometry the scene gets one grey material, which is that of every surface.
+    /// With Parts::geometry the scene gets one grey material, which all surfaces share.
     Instances(const Document& document, Scene& scene, Parts parts = Parts::all)
         : document_(&document), scene_(&scene), parts_(parts), materials_(document, scene),
           geometries_(document, scene.notices)
@@ -29,18 +29,17 @@ public:
         if (parts_ == Parts::geometry) add_plain_material(scene);
     }
 
-    /// <instance_geometry>. A mirroring transform turns the winding of triangles over as well, so that
-    /// their normal stays on the side that it was on: the front of a mirrored lamp is the mirror image
-    /// of its front. Spheres take similarity transforms only: an ellipsoid is an error. Where no
-    /// material is bound the default one stands in, with one notice for each part of a mesh and each
-    /// sphere.
+    /// <instance_geometry>. A mirroring transform also reverses the winding of triangles, so that their
+    /// normal stays on the same side: the front of a mirrored lamp is the mirror image of its front. The
+    /// transform of a sphere must be a similarity: an ellipsoid is an error. A surface without a bound
+    /// material gets the default one, with one notice for each part of a mesh and each sphere.
     void add_geometry(const Element& instance, const Matrix& to_world);
-    /// <instance_light>. Area lights wait until finish().
+    /// <instance_light>. Area lights are added by finish().
     void add_light(const Element& instance, const Matrix& to_world);
-    /// <instance_camera>. The first one counts; others are noticed and not read.
+    /// <instance_camera>. The first one is used; any other gives a notice and is not read.
     void add_camera(const Element& instance, const Matrix& to_world);
-    /// To be called after the last instance: turns area lights into pairs of triangles, unless the
-    /// geometry emits itself, for then they describe the same luminaires a second time. Notices a scene
+    /// To be called after the last instance. Turns area lights into pairs of triangles, unless some
+    /// geometry emits: then they describe the same luminaires a second time. Adds a notice for a scene
     /// without any emitter.
     void finish();
 
@@ -52,7 +51,7 @@ private:
         Matrix to_world;
     };
 
-    /// add_camera, where the camera must be readable.
+    /// The same as add_camera, for a camera that must be readable.
     void place_camera(const Element& instance, const Matrix& to_world);
     void add_mesh(const Mesh& mesh, const Element& instance, const Matrix& to_world);
     void add_sphere(const LocalSphere& sphere, const Element& geometry, const Element& instance,
@@ -61,8 +60,8 @@ private:
                        const Element& instance, const Matrix& to_world);
     /// The index of the material that `instance` gives the sphere of `geometry`.
     std::uint32_t sphere_material(const Element& geometry, const Element& instance);
-    /// The index of the default material, with a notice that `surface` (an element of a geometry) gets
-    /// it and `why`: once, however many instances it has.
+    /// The index of the default material. Adds a notice that `surface` (an element of a geometry) gets
+    /// it, and `why`: one notice for any number of instances.
     std::uint32_t default_material(const Element& surface, const std::string& why);
     /// Fails if `more` primitives on top of those in the scene are too many.
     void check_room(std::size_t more, const Element& instance) const;

@@ -37,7 +37,7 @@ Material read_cmu462(const Element& technique)
     return Emission{emission_color(required_child(kind, "radiance"))};
 }
 
-/// The <color> of a channel such as <diffuse>; none if the shader has no such channel.
+/// The <color> of a channel such as <diffuse>; null if the shader has no such channel.
 const Element* channel_color(const Element& shader, const char* channel)
 {
     const Element* element = optional_child(shader, channel);
@@ -48,7 +48,7 @@ const Element* channel_color(const Element& shader, const char* channel)
     return &required_child(*element, "color");
 }
 
-/// <transparent> and <transparency> are there in many files only to say that the surface is opaque.
+/// Many files contain <transparent> and <transparency> only to state that the surface is opaque.
 void refuse_transparency(const Element& shader)
 {
     const Element* color = channel_color(shader, "transparent");

@@ -1,7 +1,6 @@
 #pragma once
 
-// Materials: what the CMU462 profile says of an effect, or else the diffuse colour of the common
-// profile.
+// Materials: the CMU462 profile of an effect, or else the diffuse colour of the common profile.
 
 #include "scenes/collada/document.h"
 #include "scenes/scene.h"
@@ -13,15 +12,17 @@
 
 namespace scenes::collada {
 
-/// The meaning of a <material>. In this order:
-///   1. <extra><technique profile="CMU462"> in its effect: <mirror>, <glass> or <emission>; a rough
-///      glass and <refraction> are errors.
-///   2. A non-zero <emission> of the common profile, if <diffuse> is black or absent: emission. With
-///      both, the surface would emit and reflect, which no material here does: an error.
-///   3. The <diffuse> colour of the common profile: Lambertian.
+/// Reads a <material>. In this order:
+///
+/// 1. <extra><technique profile="CMU462"> in its effect: <mirror>, <glass> or <emission>. A rough glass
+///    and <refraction> are errors.
+/// 2. A non-zero <emission> of the common profile, if <diffuse> is black or absent: emission. With both,
+///    the surface would emit and reflect, which no material here does: an error.
+/// 3. The <diffuse> colour of the common profile: Lambertian.
+///
 /// Textures and transparency would change the picture and are errors. The other channels (ambient,
-/// specular, shininess, reflective, reflectivity, index_of_refraction) are ignored: that is the
-/// convention of the CMU462 files, whose exporter always writes them.
+/// specular, shininess, reflective, reflectivity, index_of_refraction) are ignored. This is the
+/// convention of the CMU462 files, whose exporter always fills them in.
 Material read_material(const Document& document, const Element& material);
 
 /// The materials of a scene: each is read once, when first used.
@@ -33,7 +34,7 @@ public:
     std::uint32_t index_of(const Element& material);
     /// The same for a luminaire that has no material of its own: the emission of a light element.
     std::uint32_t index_of(const Element& light, const Rgb& radiance);
-    /// The same for surfaces that no material is bound to: Lambertian with albedo 0.5, named "default".
+    /// The same for surfaces without a bound material: Lambertian with albedo 0.5, named "default".
     std::uint32_t index_of_default();
 
 private:

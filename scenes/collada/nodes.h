@@ -1,6 +1,6 @@
 #pragma once
 
-// The tree of nodes: from the visual scene down to every instance, composing transforms on the way.
+// The tree of nodes: walks from the visual scene down to every instance and composes the transforms.
 
 #include "scenes/collada/document.h"
 #include "scenes/collada/instances.h"
@@ -11,9 +11,9 @@
 
 namespace scenes::collada {
 
-/// Walks a <visual_scene> and hands each instance in it to an Instances. Fails for nodes that instance
+/// Walks a <visual_scene> and gives each instance in it to an Instances. Fails for nodes that instance
 /// themselves, for nodes nested deeper than 200, and for more than 2^20 elements in nodes, each counted
-/// as often as it is instanced: <instance_node> could multiply a small file to any size.
+/// as often as it is instanced: with <instance_node> a small file could describe a scene of any size.
 class NodeWalk {
 public:
     NodeWalk(const Document& document, Instances& instances)

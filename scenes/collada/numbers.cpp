@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view white_space = " \t\n\r";
 
-/// The next word of `text`, which it is cut off from; empty at the end.
+/// Removes the next word from the front of `text` and returns it; empty at the end.
 std::string_view next_word(std::string_view& text)
 {
     text.remove_prefix(std::min(text.find_first_not_of(white_space), text.size()));

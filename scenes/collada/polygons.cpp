@@ -10,7 +10,7 @@
 namespace scenes::collada {
 namespace {
 
-/// Each corner of a polygon has `stride` indices, of which the one at `vertex` is that of its vertex.
+/// Each corner of a polygon has `stride` indices; that at position `vertex` is the index of its vertex.
 struct IndexLayout {
     std::uint32_t stride;
     std::uint32_t vertex;

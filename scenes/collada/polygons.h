@@ -1,7 +1,6 @@
 #pragma once
 
-// The polygons of a mesh: <triangles>, <polylist> and <polygons> all say which vertices form which
-// polygon.
+// The polygons of a mesh: the vertices listed by <triangles>, <polylist> and <polygons>.
 
 #include "scenes/collada/document.h"
 
@@ -11,9 +10,9 @@
 
 namespace scenes::collada {
 
-/// The polygons of a <triangles>, <polylist> or <polygons> element, which draws on `vertex_count`
-/// vertices through its <input semantic="VERTEX">; what the other inputs index (normals, texture
-/// coordinates) is ignored. A <ph> of <polygons> is a polygon with holes. Fails if the counts and
+/// The polygons of a <triangles>, <polylist> or <polygons> element, which refers to `vertex_count`
+/// vertices through its <input semantic="VERTEX">. The indices of the other inputs (normals, texture
+/// coordinates) are ignored. A <ph> of <polygons> is a polygon with holes. Fails if the counts and
 /// indices do not agree with one another.
 polygons::Polygons read_polygons(const Element& element, std::uint64_t vertex_count);
 

@@ -12,7 +12,7 @@
 namespace scenes::collada {
 namespace {
 
-/// Which values of a stride are x, y and z: the positions of the params with these names.
+/// The places of x, y and z among the values of a stride: those of the params with these names.
 std::array<std::uint32_t, 3> coordinate_places(const Element& accessor)
 {
     std::array<std::optional<std::uint32_t>, 3> places;
@@ -58,7 +58,7 @@ std::vector<Vec3> read_positions(const Document& document, const Element& source
     const std::uint64_t last_place = std::max({places[0], places[1], places[2]});
     if (last_place >= stride)
         fail(accessor, "stride is " + std::to_string(stride) + ", less than its <param>s");
-    // All factors are below 2^32, so that nothing wraps around.
+    // All factors are below 2^32, so no product wraps around.
     if (count > 0 && offset + (count - 1) * stride + last_place >= values.size())
         fail(accessor,
              "it reaches beyond the " + std::to_string(values.size()) + " numbers of its array");

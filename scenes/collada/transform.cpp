@@ -15,7 +15,7 @@ namespace {
 
 // Files carry about seven significant digits: a rotation read from one is orthogonal to about 1e-6.
 constexpr double file_precision = 1e-5;
-// Triple product of unit axes below which nothing but rounding keeps them from lying in a plane.
+// If the triple product of unit axes is smaller than this, they lie in a plane to within rounding.
 constexpr double flat = 1e-12;
 
 Matrix read_matrix(const Element& element)

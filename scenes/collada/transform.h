@@ -1,6 +1,6 @@
 #pragma once
 
-// Node transforms: from the local frame of a node to that of its parent, and what can be told from one.
+// Node transforms: from the local frame of a node to that of its parent, and their properties.
 
 #include "scenes/collada/document.h"
 #include "scenes/scene.h"
@@ -15,7 +15,7 @@ using Matrix = glm::dmat4;
 /// <rotate> (degrees about an axis), <scale>, <lookat>. <skew> is refused.
 Matrix node_transform(const Element& node);
 
-/// The three columns of the linear part with what follows from them.
+/// The three columns of the linear part, and its properties.
 struct LinearPart {
     explicit LinearPart(const Matrix& matrix);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Is this the text of an XML 1.0 document in UTF-8?
+// Checks that bytes are text of an XML 1.0 document in UTF-8.
 
 #include <cstddef>
 #include <string_view>

@@ -1,11 +1,11 @@
 // Writes scenes/mesh_knot.dae: a rope along a torus knot, 20480 triangles, in a lit room.
 //
 //   generate_mesh_knot FILE            writes FILE
-//   generate_mesh_knot --check FILE    exits with 1 unless FILE holds exactly what would be written
+//   generate_mesh_knot --check FILE    exits with 1 unless FILE holds exactly these bytes
 //
-// The same bytes on every machine: coordinates are rounded to four digits and printed without a locale.
-// (sin and cos may differ in the last bit from one library to the next; none of the numbers here lies so
-// close to the middle between two roundings that this would show.)
+// The bytes are the same on every machine: coordinates are rounded to four digits and printed without a
+// locale. (sin and cos may differ in the last bit between libraries, but none of the numbers here is so
+// close to the middle between two roundings that this changes a digit.)
 //
 // The curve is c(t) = ((2 + cos 3t) cos 2t, (2 + cos 3t) sin 2t, -sin 3t), 0 <= t < 2 pi: the (2,3)
 // torus knot, or trefoil. Its Frenet frame T, N, B closes after one turn, and so does the mesh: each
@@ -31,7 +31,7 @@ namespace {
 constexpr int rings = 320; // along the knot
 constexpr int sides = 32;  // around the rope
 constexpr double rope_radius = 0.5;
-constexpr double ridge_height = 0.12; // as a part of the radius
+constexpr double ridge_height = 0.12; // as a fraction of the radius
 constexpr int strands = 4;            // ridges around the rope
 constexpr int twists = 9;             // turns of each ridge along the whole knot
 constexpr int digits = 4;
@@ -104,7 +104,7 @@ std::string triangles()
     return text;
 }
 
-/// The whole file: the frame, with each `{word}` in it replaced by what the word stands for.
+/// The whole file: the frame, with each `{word}` replaced by its text.
 std::string scene()
 {
     std::string text(frame);

@@ -1,7 +1,7 @@
 #pragma once
 
-// What scenes/mesh_knot.dae holds beside the numbers of the knot: the file with a {word} in the place of
-// each of them.
+// The text of scenes/mesh_knot.dae without the numbers of the knot: a {word} takes the place of each of
+// them.
 
 #include <string_view>
 

@@ -8,15 +8,15 @@
 namespace scenes::polygons {
 namespace {
 
-/// The edge from `from` to `to`, and what comes before it: all that is needed to look at its start as a
-/// corner, too.
+/// The edge from `from` to `to`, and the point before it, so that the start of the edge can be examined
+/// as a corner, too.
 struct Edge {
     Point before;
     Point from;
     Point to;
 };
 
-/// The edges of a ring, those of length zero left out.
+/// The edges of a ring, without those of length zero.
 void append_edges(std::span<const Point> points, const Ring& ring, std::vector<Edge>& edges)
 {
     std::vector<Point> corners;
@@ -43,8 +43,8 @@ bool corner_crosses(const Edge& edge, const Edge& other)
            orientation(edge.from, edge.to, other.before) * orientation(edge.from, edge.to, other.to) < 0;
 }
 
-/// Whether two corners at the same place cross: of the second one's edges, one is on the left of the
-/// first one and the other on its right. At the tip of a spike there is no left and right.
+/// Whether two corners at the same place cross: one edge of the second corner is on the left of the
+/// first corner, the other on its right. The tip of a spike has no left and right side.
 bool corners_cross(const Edge& a, const Edge& b)
 {
     if (a.from != b.from) return false;
@@ -67,8 +67,8 @@ bool cross(std::span<const Point> points, std::span<const Ring> rings)
     std::vector<Edge> edges;
     for (const Ring& ring : rings) append_edges(points, ring, edges);
 
-    // Only edges that overlap along both axes can meet. Sorted along one axis, those that overlap there
-    // follow each other.
+    // Only edges that overlap along both axes can meet. After sorting along one axis, edges that overlap
+    // along it are neighbours.
     Point total(0.0);
     for (const Edge& edge : edges) total += glm::abs(edge.to - edge.from);
     const int axis = total.x <= total.y ? 0 : 1;

@@ -9,8 +9,8 @@
 namespace scenes::polygons {
 namespace {
 
-/// The ring without the corners that are where the one before them is. Each takes with it a triangle of
-/// zero area.
+/// The ring without corners at the same place as the corner before. Each removed corner removes a
+/// triangle of zero area.
 Ring without_repeated(std::span<const Point> points, const Ring& ring,
                       std::vector<PointTriangle>& repeated)
 {
@@ -51,8 +51,8 @@ std::optional<std::vector<PointTriangle>> fan_of(std::span<const Point> points, 
     return fan;
 }
 
-/// Whether all corners are within half a turn around the first one, to which the ring does not return:
-/// then the edges of a fan that is not clockwise do not cross.
+/// Whether all corners are within half a turn around the first one, and the ring does not return to it.
+/// Then the edges of a fan that is not clockwise do not cross.
 bool is_within_half_a_turn(std::span<const Point> points, const Ring& ring)
 {
     const Point& first = points[ring[0]];

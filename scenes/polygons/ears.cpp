@@ -1,7 +1,7 @@
 // An ear is a corner whose two neighbours can be joined by a diagonal: every polygon of more than three
-// corners has two [G. H. Meisters, "Polygons Have Ears", American Mathematical Monthly 82 (1975)]. How
-// corners that touch are dealt with was worked out along: M. Held, "FIST: Fast Industrial-Strength
-// Triangulation of Polygons", Algorithmica 30 (2001), sec. 3.
+// corners has two [G. H. Meisters, "Polygons Have Ears", American Mathematical Monthly 82 (1975)]. The
+// treatment of corners that touch follows M. Held, "FIST: Fast Industrial-Strength Triangulation of
+// Polygons", Algorithmica 30 (2001), sec. 3.
 
 #include "scenes/polygons/ears.h"
 
@@ -14,8 +14,8 @@
 namespace scenes::polygons {
 namespace {
 
-/// What the triangle of an ear must fulfil. The first rule suffices for simple polygons, and keeps them
-/// simple. The others are for polygons that touch themselves, when no corner fulfils the rule before.
+/// The condition on the triangle of an ear. The first rule is enough for simple polygons, and keeps them
+/// simple. The others are for polygons that touch themselves, if no corner satisfies the rule before.
 enum class Rule {
     nothing_touches, // counter-clockwise, and no other corner in it or on its boundary
     nothing_inside,  // counter-clockwise, and no other corner in it
@@ -46,7 +46,7 @@ public:
                 if (rule != Rule::nothing_touches) enqueue_all();
                 rule = Rule::nothing_touches;
             } else if (cut_since_all_) {
-                enqueue_all(); // what was no ear may have become one
+                enqueue_all(); // a corner that was no ear may have become one
             } else if (rule == Rule::not_clockwise) {
                 return std::nullopt;
             } else {
@@ -65,7 +65,7 @@ private:
         std::uint32_t point;
         std::size_t previous;
         std::size_t next;
-        std::size_t queued; // how often: only the last entry in the queue counts
+        std::size_t queued; // number of times in the queue: only the last entry counts
         bool cut;
     };
 
@@ -127,7 +127,7 @@ private:
         return true;
     }
 
-    /// Whether the corner `other` hinders cutting off the counter-clockwise ear `ear`.
+    /// Whether the corner `other` prevents cutting off the counter-clockwise ear `ear`.
     [[nodiscard]] bool is_in_the_way(std::size_t other, std::size_t ear, Rule rule) const
     {
         if (other == ear || other == corners_[ear].previous || other == corners_[ear].next) return false;
@@ -139,8 +139,8 @@ private:
         const int bc = orientation(b, c, p);
         const int ca = orientation(c, a, p);
         if (ab < 0 || bc < 0 || ca < 0) return false;
-        // An edge that starts at a or c and enters the triangle has to end in it, and is seen there. One
-        // that starts at b may leave it through the diagonal.
+        // An edge that starts at a or c and enters the triangle must end in it, and its end is tested.
+        // An edge that starts at b may leave the triangle through the diagonal.
         if (p == a || p == c) return false;
         if (p == b) return is_in_wedge(a, b, c, before(other)) || is_in_wedge(a, b, c, after(other));
         return rule == Rule::nothing_touches || (ab > 0 && bc > 0 && ca > 0);
@@ -152,8 +152,8 @@ private:
         triangles_.push_back({corners_[previous].point, point, corners_[next].point});
     }
 
-    /// Cuts off `corner`, and then its neighbours, for as long as that repeats a corner or is the tip of
-    /// a spike. There is no inside on either side of a spike; what remains may be taken for an ear.
+    /// Cuts off `corner`, and then its neighbours, as long as the corner repeats another or is the tip
+    /// of a spike. Neither side of a spike is the inside; what remains may be mistaken for an ear.
     void cut_spikes(std::size_t corner)
     {
         std::vector<std::size_t> suspects = {corner};
@@ -169,8 +169,8 @@ private:
         }
     }
 
-    /// The neighbours go to the end of the queue: cut one after the other, ears along a convex outline
-    /// would all share a corner and be long and thin.
+    /// The neighbours go to the end of the queue. If ears along a convex outline were cut one after the
+    /// other, all of them would share a corner and be long and thin.
     void cut_off(std::size_t corner)
     {
         emit(corner);

@@ -14,13 +14,13 @@ namespace scenes::polygons {
 
 using PointTriangle = std::array<std::uint32_t, 3>;
 
-/// Cuts a polygon along diagonals into walk.size() - 2 triangles, none of them clockwise: `walk` are its
-/// corners, counter-clockwise, three or more. None if that fails, which it does for no polygon that is
-/// simple, touches itself only, or was joined to its holes by bridges.
+/// Cuts a polygon along diagonals into walk.size() - 2 triangles, none of them clockwise. `walk` are its
+/// corners, counter-clockwise, three or more. Returns std::nullopt on failure. It does not fail for
+/// polygons that are simple, that only touch themselves, or that were joined to their holes by bridges.
 ///
-/// What comes out is right: the outline is the sum of the outlines of its triangles. So a place around
-/// which the outline winds once lies in exactly one triangle, and one outside lies in none, provided
-/// that the outline winds no more than once around any place and that no triangle is clockwise.
+/// The result is right, because the outline is the sum of the outlines of its triangles. So a point
+/// around which the outline winds once lies in exactly one triangle, and a point outside lies in none,
+/// provided that the outline winds at most once around any point and that no triangle is clockwise.
 /// Corners that repeat the one before, and spikes, give triangles of zero area.
 std::optional<std::vector<PointTriangle>> cut_ears(std::span<const Point> points, const Ring& walk);
 

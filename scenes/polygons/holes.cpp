@@ -1,6 +1,6 @@
-// The hole that reaches furthest to the left (and, of its corners, the leftmost) sees a corner of the
-// outline: nothing else is on its left. Joined to that corner it is part of the outline for the next one
-// [D. Eberly, "Triangulation by Ear Clipping", 2002, sec. 3].
+// The hole that reaches furthest to the left sees, from its leftmost corner, a corner of the outline: no
+// other hole is on its left. After it is joined to that corner it is part of the outline for the next
+// hole [D. Eberly, "Triangulation by Ear Clipping", 2002, sec. 3].
 
 #include "scenes/polygons/holes.h"
 
@@ -18,7 +18,7 @@ bool is_left_of(const Point& a, const Point& b)
     return a.x != b.x ? a.x < b.x : a.y < b.y;
 }
 
-/// What may lie on a bridge.
+/// Whether a bridge may touch other corners and edges.
 enum class Touch { nothing, touching };
 
 class Bridges {
@@ -52,8 +52,8 @@ public:
     }
 
 private:
-    /// The place in the walk of the nearest corner that a bridge to the first corner of `hole` can start
-    /// from.
+    /// The place in the walk of the nearest corner from which a bridge to the first corner of `hole` can
+    /// start.
     [[nodiscard]] std::optional<std::size_t> visible_corner(const Ring& hole, Touch touch) const
     {
         const Point& end = points_[hole.front()];
@@ -73,7 +73,7 @@ private:
         const std::size_t n = walk_.size();
         const Point& start = points_[walk_[place]];
         const Point& end = points_[hole.front()];
-        // A bridge leaves into the inside. One of length zero is where the hole touches the outline.
+        // A bridge must go into the inside. It has length zero where the hole touches the outline.
         const Point& target = start == end ? points_[hole[1]] : end;
         if (!is_in_wedge(points_[walk_[(place + n - 1) % n]], start, points_[walk_[(place + 1) % n]],
                          target))
@@ -93,7 +93,7 @@ private:
             const int a_side = orientation(start, end, a);
             const int b_side = orientation(start, end, b);
             if (touch == Touch::nothing && a_side == 0 && is_between(start, a, end)) return true;
-            if (a_side * b_side >= 0) continue; // an edge along the line is seen at its corners
+            if (a_side * b_side >= 0) continue; // an edge along the line is tested at its corners
             const int start_side = orientation(a, b, start);
             const int end_side = orientation(a, b, end);
             if (start_side * end_side < 0) return true;

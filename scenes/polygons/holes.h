@@ -1,6 +1,6 @@
 #pragma once
 
-// Polygons with holes, made into polygons without.
+// Turns polygons with holes into polygons without holes.
 
 #include "scenes/polygons/crossings.h"
 
@@ -10,10 +10,10 @@
 
 namespace scenes::polygons {
 
-/// Joins each hole to the outline by a bridge that is walked to the hole and back: one closed walk, in
-/// which each bridge repeats two corners, so of as many corners as all rings together and two more per
-/// hole. `outline` is counter-clockwise and `holes` are clockwise, all of three corners or more. None if
-/// some hole cannot be reached, as one outside of the outline.
+/// Joins each hole to the outline by a bridge that is walked to the hole and back. The result is one
+/// closed walk, with the corners of all rings and two more per hole, because each bridge repeats two
+/// corners. `outline` is counter-clockwise and `holes` are clockwise, all of three corners or more.
+/// std::nullopt if some hole cannot be reached, for example one outside the outline.
 std::optional<Ring> join_holes(std::span<const Point> points, const Ring& outline,
                                const std::vector<Ring>& holes);
 

@@ -17,8 +17,8 @@ int sign(double value)
     return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
 
-/// A sum of doubles without rounding: the value is that of all components together, and the last one
-/// that is not zero has its sign.
+/// A sum of doubles without rounding. Its value is the sum of all components, and its sign is that of
+/// the last component that is not zero.
 class Expansion {
 public:
     void add(double value)
@@ -91,7 +91,7 @@ bool is_in_wedge(const Point& previous, const Point& at, const Point& next, cons
     const int turn = orientation(previous, at, next);
     if (turn > 0) return left_of_next && right_of_previous;
     if (turn < 0) {
-        // More than half a turn: all that is not in the closed wedge on the other side.
+        // More than half a turn: everything outside the closed wedge on the other side.
         return !(orientation(at, next, target) <= 0 && orientation(previous, at, target) <= 0);
     }
     // Straight on: the half plane on the left. Straight back: everything but that one direction.

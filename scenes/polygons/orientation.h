@@ -1,6 +1,6 @@
 #pragma once
 
-// On which side of a line does a point lie? Answered exactly, so that what is cut by it fits together.
+// On which side of a line does a point lie? The answer is exact, so that the pieces of a cut fit.
 
 #include <glm/vec2.hpp>
 
@@ -13,7 +13,7 @@ using Point = glm::dvec2;
 /// or whose magnitude is between 2^-400 and 2^400: no product of two then leaves the range of a double.
 int orientation(const Point& a, const Point& b, const Point& c);
 
-/// Whether b, collinear with a and c, lies on the segment between them and is neither of them.
+/// Whether b, collinear with a and c, lies on the segment between them and differs from both.
 bool is_between(const Point& a, const Point& b, const Point& c);
 
 /// Whether the direction from `at` to `target` points strictly into the wedge that begins at the

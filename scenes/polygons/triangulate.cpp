@@ -37,9 +37,9 @@ std::vector<Vec3> scaled(std::span<const Vec3> corners)
     return result;
 }
 
-/// How a polygon lies in space.
+/// The position of a polygon in space.
 struct Pose {
-    enum class Kind { flat, crossed, planar, warped } kind; // flat: of no area, crossed: of none in sum
+    enum class Kind { flat, crossed, planar, warped } kind; // flat: no area, crossed: areas sum to zero
     Vec3 normal;
 };
 
@@ -100,7 +100,8 @@ std::vector<Point> projected(std::span<const Vec3> corners, const Pose& pose)
         right = glm::normalize(right - glm::dot(right, pose.normal) * pose.normal);
         up = glm::cross(pose.normal, right);
     }
-    // Beside a coordinate near 1 these are nothing, and their products would leave the range of doubles.
+    // So small numbers do not matter beside a coordinate near 1, and their products would leave the
+    // range of doubles.
     const auto without_tiny = [](double x) { return std::abs(x) < 0x1p-400 ? 0.0 : x; };
     std::vector<Point> points;
     for (const Vec3& corner : corners)
@@ -109,7 +110,7 @@ std::vector<Point> projected(std::span<const Vec3> corners, const Pose& pose)
     return points;
 }
 
-/// The polygon cut in its plane, by indices of corners; none if it cannot be.
+/// The polygon cut in its plane, by indices of corners; std::nullopt if it cannot be cut.
 std::optional<std::vector<PointTriangle>>
 cut(std::span<const Vec3> in_space, std::span<const std::uint32_t> sizes, PolygonFaults& faults)
 {

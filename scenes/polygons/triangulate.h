@@ -1,6 +1,6 @@
 #pragma once
 
-// Polygons in space to triangles.
+// Cuts polygons in space into triangles.
 
 #include "scenes/scene.h"
 
@@ -11,8 +11,8 @@
 
 namespace scenes::polygons {
 
-/// Polygons one after the other, each of one ring, its outline, or of several, the others being holes in
-/// it. Ring i has sizes[i] corners, the next ones of `corners`.
+/// Polygons one after the other. Each has one ring, its outline, or several: the others are holes in it.
+/// Ring i has sizes[i] corners, the next ones of `corners`.
 struct Polygons {
     std::vector<std::uint32_t> sizes;   // per ring
     std::vector<std::uint32_t> corners; // vertex indices, each below the vertex count
@@ -21,7 +21,7 @@ struct Polygons {
 
 using Corners = std::array<Vec3, 3>;
 
-/// What is wrong with the polygons of a mesh, though it can still be rendered.
+/// Faults of the polygons of a mesh that can still be rendered.
 struct PolygonFaults {
     std::size_t too_small = 0;   // fewer than three corners: no surface, dropped
     std::size_t small_holes = 0; // fewer than three corners: no hole, dropped
@@ -33,16 +33,16 @@ struct PolygonFaults {
     std::size_t too_large = 0; // more than most_corners and not convex: missing, so this is an error
 };
 
-/// Appends the triangles of each polygon to `triangles`; counts what is wrong in `faults`. `positions`
+/// Appends the triangles of each polygon to `triangles`, and counts its faults in `faults`. `positions`
 /// are finite.
 ///
-/// A polygon is cut in its mean plane, whose normal is the sum of the area vectors of any cut [Newell's
-/// method: Sutherland, Sproull, Schumacker 1974]; seen from the side of that normal the outline turns
-/// left. A planar one (to the digits of a file) is cut exactly; one that is not is cut as its
-/// perpendicular projection on that plane. There no triangle turns right, and together they cover the
-/// polygon once. Where the triangles (c0, ci, ci+1) around the first corner do that, as in every convex
-/// polygon, it is these, in this order; cut_polygon (scenes/polygons/cut.h) says what else holds.
-/// Polygons that cross themselves get these triangles whatever they cover.
+/// A polygon is cut in its mean plane. The normal of this plane is the sum of the area vectors of any
+/// cut [Newell's method: Sutherland, Sproull, Schumacker 1974]; seen from the side of the normal the
+/// outline turns left. A planar polygon (to the digits of a file) is cut exactly; any other is cut as
+/// its perpendicular projection on the plane. There no triangle turns right, and together they cover the
+/// polygon once. The result is the triangles (c0, ci, ci+1) around the first corner, in this order, if
+/// they have these properties, as in every convex polygon; see cut_polygon (scenes/polygons/cut.h).
+/// Polygons that cross themselves always get these triangles, although they cover a different area.
 void triangulate(const Polygons& polygons, const std::vector<Vec3>& positions,
                  std::vector<Corners>& triangles, PolygonFaults& faults);
 

@@ -1,6 +1,6 @@
 // calibrate FILE: measures how often the comparison of pictures is wrong, and writes the tables into
-// FILE between the lines that mark their place. The seeds are fixed: the same program gives the same
-// tables.
+// FILE, between the lines that mark their places. The seeds are fixed, so the same program always gives
+// the same tables.
 
 #include "cli/progress.h"
 #include "images/atomic_file.h"
@@ -115,7 +115,7 @@ void write_false_alarms(std::ostream& out, const Tick& tick)
     }
     out << "| all | " << with_interval(all.suspected) << " | " << all.failed.hits << " of "
         << all.failed.trials << " | | | | |\n\n";
-    // The functionals depend on the size of the picture alone.
+    // The functionals depend only on the size of the picture.
     golden::Pilot pilot{images::Image(128, 128), images::Image(128, 128), 512};
     const golden::Functionals functionals(pilot);
     const golden::CompareOptions options;
@@ -199,7 +199,7 @@ void write_other_criteria(std::ostream& out, const Tick& tick)
 struct Table {
     const char* name;
     void (*write)(std::ostream& out, const Tick& tick);
-    double trials; // that it will tick
+    double trials; // number of ticks
 };
 
 std::vector<Table> tables()
@@ -215,7 +215,7 @@ std::vector<Table> tables()
             {"other-estimators", write_other_estimators, 2.0 * 3.0 * 2.0 * trials_of(estimator_plan())}};
 }
 
-/// `text` with what stands between the marks of this table replaced.
+/// `text` with the text between the marks of this table replaced.
 std::string replace_table(const std::string& text, const std::string& name, const std::string& table)
 {
     const std::string begin = "<!-- calibrate: begin " + name + " -->\n";
@@ -234,7 +234,8 @@ void calibrate(const std::string& file, const std::vector<std::string>& names)
         if (names.empty() || std::find(names.begin(), names.end(), table.name) != names.end())
             chosen.push_back(table);
     if (chosen.size() < names.size()) throw std::runtime_error("there is no such table");
-    for (const Table& table : chosen) replace_table(images::read_file(file), table.name, ""); // a place?
+    for (const Table& table : chosen)
+        replace_table(images::read_file(file), table.name, ""); // throws if it has no place
     for (const Table& table : chosen) {
         std::ostringstream out;
         {

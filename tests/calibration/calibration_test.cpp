@@ -1,4 +1,4 @@
-// The short version of `./run calibrate`: the rates that docs/comparison.md states, on fewer trials.
+// The short version of `./run calibrate`: the rates that docs/comparison.md states, with fewer trials.
 
 #include "tests/calibration/experiments.h"
 
@@ -20,16 +20,16 @@ Plan small_plan(int size, int goldens, int trials)
     return plan;
 }
 
-/// A seed is fixed, so the outcome is; the level says how surprising a failure is.
+/// The seeds are fixed, so the outcome is, too. The level states how unlikely a failure is.
 class FalseAlarm : public ::testing::TestWithParam<Noise> {};
 
 TEST_P(FalseAlarm, IsAsRareAsTheLevelsSayWhateverTheTailOfTheNoise)
 {
     const FalseAlarms result = measure_false_alarms(GetParam(), small_plan(32, 2, 6));
     EXPECT_EQ(result.failed.hits, 0u);
-    // Suspected with a chance of 5% at most: 4 of 12 have one of 2e-3, and that is a bound.
+    // The probability of a suspicion is at most 5%, so that of 4 or more in 12 trials is at most 2e-3.
     EXPECT_LT(result.suspected.hits, 4u);
-    // Tests on one picture depend on each other, so that no binomial limit holds: three times the level.
+    // Tests on one picture depend on each other, so no binomial limit applies: three times the level.
     EXPECT_LT(static_cast<double>(result.below_1e3.hits),
               3e-3 * static_cast<double>(result.below_1e3.trials));
     EXPECT_GT(result.below_1e3.trials, 10'000u);
@@ -41,8 +41,8 @@ INSTANTIATE_TEST_SUITE_P(Noises, FalseAlarm, ::testing::ValuesIn(noises), [](con
     return text;
 });
 
-/// A single picture, of which the noise must be guessed: whether it has fewer samples than its golden or
-/// many more. What pictures of one golden have in common is its error, so each has a golden of its own.
+/// A single picture, whose noise must be estimated, with fewer samples than its golden or with many
+/// more. Pictures compared with one golden share the error of that golden, so each has its own golden.
 TEST_P(FalseAlarm, OfASinglePictureIsRareHoweverManySamplesItHas)
 {
     const SimulatedRenderer renderer(32, GetParam());
@@ -62,13 +62,13 @@ TEST_P(FalseAlarm, OfASinglePictureIsRareHoweverManySamplesItHas)
             suspected += comparison.p < options.accuse;
             EXPECT_NE(comparison.verdict, golden::Verdict::fail) << comparison.reason;
         }
-        // 5 of 16 have a chance of 1e-3 at 5%, and that is a bound.
+        // The probability of 5 or more of 16 at a rate of 5% is 1e-3, and 5% is an upper bound.
         EXPECT_LT(suspected, 5) << batches;
     }
 }
 
-// Each of these powers is 0.97 at least in the long version; of 8 trials 2 fail with a chance of 2%, and
-// 3 with one of 0.1%.
+// Each of these powers is at least 0.97 in the long version. In 8 trials the probability of 2 or more
+// misses is 2%, and that of 3 or more is 0.1%.
 TEST(Power, FindsAPercentEverywhere)
 {
     const Verdicts v = measure_verdicts(golden::Method::ranks, Noise::lognormal, Noise::lognormal,

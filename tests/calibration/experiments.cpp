@@ -88,7 +88,7 @@ FalseAlarms measure_false_alarms(Noise noise, const Plan& plan)
     const SimulatedRenderer renderer(plan.size, noise);
     FalseAlarms result;
     std::mutex mutex;
-    Plan own = plan; // so that luck with a golden is not shared among the kinds of noise
+    Plan own = plan; // its own seed: kinds of noise must not share the error of one golden
     own.seed = mix(plan.seed) + static_cast<std::uint64_t>(noise);
     for_each_trial(renderer, own, [&](const Golden& golden, std::uint64_t seed) {
         const golden::CompareOptions options;
@@ -104,7 +104,7 @@ FalseAlarms measure_false_alarms(Noise noise, const Plan& plan)
         one.suspected = {comparison.p < options.accuse, 1};
         one.failed = {comparison.verdict == golden::Verdict::fail, 1};
         for (const golden::Finding& finding : comparison.findings) {
-            // Of what is black nothing can be said: p is 1.
+            // For a black region no statement is possible: p is 1.
             if (finding.region.kind != golden::RegionKind::whole && finding.test.p == 1.0) continue;
             ++one.below_1e3.trials;
             one.below_1e3.hits += finding.test.p < 1e-3;
@@ -128,7 +128,7 @@ FalseAlarms measure_false_alarms(Noise noise, const Plan& plan)
         add(result.twice, one.twice);
     });
     constexpr std::array counts = {static_cast<double>(first_stage), static_cast<double>(second_stage)};
-    constexpr std::array levels = {level_of_both / 2.0, level_of_both}; // either sign, then that sign
+    constexpr std::array levels = {level_of_both / 2.0, level_of_both}; // any sign, then that sign
     result.expected_twice =
         2.0 * golden::all_exceed(counts, levels, static_cast<double>(plan.reference));
     return result;
@@ -174,7 +174,8 @@ std::vector<Count> measure_other_criteria(Noise noise, const Bias& bias, const P
     };
     const std::uint64_t golden_batches = plan.pilot + plan.reference;
     const images::Film reference = film_of(mix(plan.seed), golden_batches, {});
-    // The golden knows its noise best: its standard error, for the difference from 64 batches.
+    // The noise is estimated from the golden: its standard error, scaled to the difference from 64
+    // batches.
     images::Image error = reference.standard_error();
     const auto all = static_cast<double>(golden_batches);
     for (images::Rgb& pixel : error.pixels)

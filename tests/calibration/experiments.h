@@ -1,6 +1,6 @@
 #pragma once
 
-// How often the comparison is wrong, measured on simulated renders of which the truth is known.
+// Measures how often the comparison is wrong, on simulated renders with known truth.
 
 #include "golden/compare.h"
 #include "tests/calibration/other_criteria.h"
@@ -13,7 +13,7 @@
 
 namespace calibration {
 
-/// How often something happened.
+/// The number of trials, and of those in which an event happened.
 struct Count {
     std::uint64_t hits = 0;
     std::uint64_t trials = 0;
@@ -26,7 +26,7 @@ golden::Interval rate_interval(const Count& count);
 using Tick = std::function<void()>;
 
 struct Plan {
-    int size = 128;                // pixels a side
+    int size = 128;                // width and height in pixels
     std::uint64_t pilot = 512;     // batches of the golden's halves
     std::uint64_t reference = 512; //
     int goldens = 1;
@@ -36,21 +36,21 @@ struct Plan {
     Tick tick = {};
 };
 
-/// Right pictures.
+/// The results for right pictures.
 struct FalseAlarms {
-    Count suspected; // first stages with something to confirm
+    Count suspected; // first stages with a suspicion
     Count failed;    // after all stages
-    /// Single tests, of all functionals: p below 1e-3 and 1e-5, which ought to happen as often.
+    /// Single tests, of all functionals: p below 1e-3 and 1e-5. The rates should equal these numbers.
     Count below_1e3, below_1e5;
     /// Single tests: p < 1% in the first stage and, in the same direction, in another one of 256
     /// batches.
     Count twice;
-    double expected_twice = 0.0; // that rate in theory, for all_exceed
+    double expected_twice = 0.0; // the rate of `twice` in theory, by all_exceed
 };
 FalseAlarms measure_false_alarms(Noise noise, const Plan& plan);
 
-/// What verdicts pictures get, by stages of 64 and 256 batches (Method::ranks), or as 64 pictures of
-/// another renderer (Method::welch), or as one picture of 256 samples (Method::picture).
+/// Numbers of verdicts: by stages of 64 and 256 batches (Method::ranks), for 64 pictures of another
+/// renderer (Method::welch), or for one picture of 256 samples (Method::picture).
 struct Verdicts {
     std::uint64_t pass = 0, fail = 0, inconclusive = 0;
     [[nodiscard]] std::uint64_t trials() const { return pass + fail + inconclusive; }
@@ -58,8 +58,9 @@ struct Verdicts {
 Verdicts measure_verdicts(golden::Method method, Noise golden_noise, Noise candidate_noise,
                           const Bias& bias, const Plan& plan);
 
-/// For each of other_criteria(), how many of `plan.trials` pictures of 256 samples with this bias are
-/// worse by it than all but one in a hundred of as many right ones: its power with a well set threshold.
+/// For each of other_criteria(): of `plan.trials` pictures of 256 samples with this bias, the number
+/// that the criterion finds worse than all but one in a hundred of as many right ones. This is its power
+/// with a threshold set for 1% of false alarms.
 std::vector<Count> measure_other_criteria(Noise noise, const Bias& bias, const Plan& plan);
 
 } // namespace calibration

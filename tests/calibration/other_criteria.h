@@ -1,6 +1,6 @@
 #pragma once
 
-// What else pictures are compared by, to see what it would have found.
+// Other criteria for comparing pictures, to measure what they would have found.
 
 #include "images/image.h"
 
@@ -9,16 +9,18 @@
 
 namespace calibration {
 
-/// A number by which a picture is found worse, the larger it is.
+/// A number that is larger for a worse picture.
 struct Criterion {
     std::string name;
     double (*badness)(const images::Image& picture, const images::Image& reference,
                       const images::Image& error_of_difference);
 };
 
-/// Root mean square error; 1 - SSIM [Wang et al. 2004], in windows of 8x8 pixels, of luminance with a
-/// gamma of 2.2; the share of values whose z is beyond the limit that all of them together exceed with a
-/// chance of 1% [Sidak 1967], as in tests that judge by z per pixel; the largest z of a pixel.
+/// 1. Root mean square error.
+/// 2. 1 - SSIM [Wang et al. 2004], in windows of 8x8 pixels, of luminance with a gamma of 2.2.
+/// 3. The share of values whose z exceeds a limit, as in tests by z per pixel. The limit is the one that
+///    the largest of all values exceeds with a probability of 1% [Sidak 1967].
+/// 4. The largest z of a pixel.
 const std::vector<Criterion>& other_criteria();
 
 } // namespace calibration

@@ -1,7 +1,7 @@
 #pragma once
 
-// A renderer of which everything is known: a picture, times noise of mean 1 whose tail can be chosen.
-// What it takes hours to render it draws in seconds, as often as the rates of errors need.
+// A simulated renderer with known truth: a picture, times noise of mean 1 with a chosen tail. It draws
+// in seconds pictures whose rendering would take hours, so that rates of errors can be measured.
 
 #include "images/image.h"
 
@@ -12,7 +12,7 @@
 
 namespace calibration {
 
-/// How the samples of a pixel are distributed around its mean.
+/// The distribution of the samples of a pixel around its mean.
 enum class Noise {
     lognormal,  // relative standard deviation 1
     gamma,      // relative standard deviation 1, a thin tail
@@ -25,7 +25,7 @@ inline constexpr std::array noises = {Noise::lognormal, Noise::gamma,     Noise:
                                       Noise::pareto_20, Noise::pareto_15, Noise::rare_bright};
 std::string name(Noise noise);
 
-/// What is wrong with a picture: factors on the brightness of parts of it.
+/// The error of a wrong picture: factors on the brightness of its parts.
 struct Bias {
     double everywhere = 1.0;
     double in_caustic = 1.0;
@@ -33,14 +33,14 @@ struct Bias {
 };
 
 /// Draws batches of 4 samples per pixel of a picture with a gradient, a quarter in shadow, a caustic on
-/// 3% of the pixels and a black corner. In the shadow half of the samples find no light, in the caustic
-/// 90% (so their noise is larger), as happens to shadow rays and to paths that must hit a small lamp.
+/// 3% of the pixels and a black corner. In the shadow 50% of the samples find no light, in the caustic
+/// 90%, so their noise is larger. This is how shadow rays, and paths that must hit a small lamp, behave.
 class SimulatedRenderer {
 public:
     SimulatedRenderer(int size, Noise noise);
 
     /// Batch number `batch` of the render with this seed. Red and green have the same noise, as under
-    /// white light; that of blue is independent.
+    /// white light; the noise of blue is independent.
     [[nodiscard]] images::Image render(std::uint64_t seed, std::uint64_t batch,
                                        const Bias& bias = {}) const;
 
@@ -52,11 +52,11 @@ private:
     };
     int size_;
     std::vector<Place> places_;
-    /// By part: means of four samples, as many as make a fair population; its mean is exactly 1.
+    /// By part: a large population of means of four samples. The mean of the population is exactly 1.
     std::array<std::vector<float>, 3> population_;
 };
 
-/// Random words as a function of their place [Steele et al. 2014].
+/// A random word as a function of its position [Steele et al. 2014].
 inline std::uint64_t mix(std::uint64_t x)
 {
     x += 0x9e3779b97f4a7c15;

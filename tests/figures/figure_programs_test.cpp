@@ -1,4 +1,4 @@
-// The programs that make figures and tables say how they are called, and refuse what they do not know.
+// The programs that make figures and tables print their usage, and refuse unknown arguments.
 
 #include "tests/cli/run_program.h"
 

@@ -1,4 +1,4 @@
-// Means, ratios and intervals over rounds; and that the rounds are what they are said to be.
+// Means, ratios and intervals over rounds, and the order of the measurements in a round.
 
 #include "cli/rounds.h"
 
@@ -41,7 +41,7 @@ TEST(Rounds, IntervalsHoldTheTruthNineteenTimesOfTwenty)
     EXPECT_NEAR(held, 0.95 * trials, 6.0 * std::sqrt(0.95 * 0.05 * trials));
 }
 
-// A machine that slows down by any factor for a whole round changes nothing.
+// If the machine is slower by any factor during a whole round, the ratio does not change.
 TEST(Rounds, WhatSlowsAWholeRoundCancelsInTheRatio)
 {
     const Ratio ratio = ratio_of_rounds({2.0, 20.0, 0.2}, {1.0, 10.0, 0.1});

@@ -61,7 +61,7 @@ TEST(AtomicFile, ADiskThatIsFullLeavesTheOldFileAndNoTemporary)
 {
     const TemporaryFolder folder;
     write_atomically(folder / "a", "old");
-    // The kernel cuts the write short at the limit, as it does when the last block is taken.
+    // The kernel cuts the write short at the limit, as on a full disk.
     const auto previous_action = std::signal(SIGXFSZ, SIG_IGN);
     rlimit previous{};
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &previous), 0);
@@ -81,7 +81,7 @@ TEST(AtomicFile, AFolderWithoutPermissionIsAnErrorForWritingAndChecking)
     const TemporaryFolder folder;
     fs::create_directory(folder / "closed");
     fs::permissions(folder / "closed", fs::perms::owner_read | fs::perms::owner_exec);
-    // Permissions do not bind root: then the attempt is made as nobody.
+    // Permissions do not apply to root: as root, the attempt is made as the user nobody.
     constexpr uid_t nobody = 65534;
     const uid_t self = geteuid();
     ASSERT_EQ(seteuid(self == 0 ? nobody : self), 0);

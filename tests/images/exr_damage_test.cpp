@@ -1,4 +1,4 @@
-// Files that were cut short or altered: each gives a picture or one line that says what is wrong.
+// Files that were cut short or altered: each gives a picture or an error message of one line.
 
 #include "images/exr.h"
 #include "images/image_error.h"
@@ -17,7 +17,7 @@ using images::Image;
 using images::ImageError;
 using namespace images_test;
 
-/// A small file of ours with everything in it.
+/// A small file of ours that uses every feature of the format that we write.
 const std::string& sound_file()
 {
     static const std::string bytes = [] {
@@ -31,7 +31,7 @@ const std::string& sound_file()
     return bytes;
 }
 
-/// What the reader says of these bytes; the empty string if it reads a picture.
+/// The error message of the reader for these bytes; empty if it reads a picture.
 std::string verdict(const std::string& bytes)
 {
     const TemporaryFolder folder;
@@ -60,7 +60,7 @@ TEST(DamagedExr, WhatIsNoExrIsCalledSo)
 TEST(DamagedExr, EveryTruncationIsAnError)
 {
     const std::string& sound = sound_file();
-    // Every length of the header, where the format is intricate, and one in seven of the rest.
+    // Every length within the header, where the format is intricate, and one in seven of the others.
     for (std::size_t length = 0; length < sound.size(); length += length < 1500 ? 1 : 7)
         EXPECT_NE(verdict(sound.substr(0, length)), "") << length << " of " << sound.size() << " bytes";
     EXPECT_NE(verdict(sound.substr(0, sound.size() - 1)), "");
@@ -80,7 +80,7 @@ TEST(DamagedExr, AHeaderThatClaimsAnAbsurdSizeIsRefusedBeforeMemoryIsAskedFor)
         }
         return verdict(bytes);
     };
-    ASSERT_EQ(with_corner(8, 34), ""); // the true one: the surgery hits what it aims at
+    ASSERT_EQ(with_corner(8, 34), ""); // the true corner: the edit reaches the right bytes
     EXPECT_EQ(with_corner(100'000, 34), "absurd size 100001x35");
     EXPECT_NE(with_corner(30'000, 34).find("cannot hold 30001x35 pixels"), std::string::npos);
     EXPECT_NE(with_corner(1'000'000'000, 34), "");

@@ -1,4 +1,4 @@
-// What other programs write: made here with OpenEXR itself, so that nothing of ours is in the file.
+// Files of other programs. They are made here with OpenEXR itself, without any of our code.
 
 #include "images/exr.h"
 #include "images/image_error.h"
@@ -33,7 +33,7 @@ constexpr int width = 13;
 constexpr int height = 7;
 const Imath::Box2i window(Imath::V2i(-5, 100), Imath::V2i(-5 + width - 1, 100 + height - 1));
 
-/// A value that half precision holds exactly, different in every pixel and channel.
+/// A value that half precision represents exactly, different in every pixel and channel.
 float value(int x, int y, int channel)
 {
     return static_cast<float>(channel * 128 + y * width + x) / 8.0f;
@@ -49,7 +49,7 @@ Image expected()
     return image;
 }
 
-/// R, G, B and depth as planes of `Value`, ready to be written.
+/// R, G, B and depth as planes of `Value`, in the layout that OpenEXR writes.
 template <class Value>
 class Planes {
 public:
@@ -169,7 +169,7 @@ TEST(ForeignExr, ChannelsThatAreMissingOrSubsampledAreNamed)
 
 TEST(ForeignExr, OneOfSeveralLayersIsChosenByName)
 {
-    // As renderers write that have a picture for each kind of light, and no R, G, B besides.
+    // The layout of renderers that write a picture for each kind of light, without R, G, B of their own.
     const TemporaryFolder folder;
     const fs::path path = folder / "layers.exr";
     Imf::Header header(2, 1);

@@ -21,7 +21,7 @@ using images::Metadata;
 using namespace images_test;
 using namespace std::string_literals;
 
-/// Keys and values of arbitrary bytes; a key ends at a zero byte in the format, so it has none.
+/// Keys and values of arbitrary bytes. A key contains no zero byte, because that ends it in the format.
 Metadata any_metadata()
 {
     const auto byte = rc::gen::resize(100, rc::gen::arbitrary<char>());

@@ -46,8 +46,8 @@ TEST(Film, FewerThanTwoBatchesSayNothingAboutTheError)
     EXPECT_EQ(film.standard_error().pixels[0].b, 0.0);
 }
 
-// The comparison is with the sums done twice over, in 64-bit significands. With u = 2^-53, |x| <= M and
-// all x within a range R, to first order in u:
+// The comparison is with the sums computed in two passes, in 64-bit significands. With u = 2^-53,
+// |x| <= M and all x within a range R, to first order in u:
 // - A step rounds the mean by at most u M + 2 u R / k, and later steps shrink that by k/n: the mean's
 //   error is at most e_k = u (M (k + 1) / 2 + 2 R).
 // - A step adds a product whose factors are off by e_k and e_(k-1), with three roundings of at most R^2

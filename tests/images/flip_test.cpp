@@ -53,8 +53,8 @@ double at(const images::ErrorMap& map, int x, int y)
     return map[static_cast<std::size_t>(y * width + x)];
 }
 
-/// Theirs is computed in float: a feature difference that should vanish is about 1e-7, its square root
-/// 3e-4, and the error E^(1 - 3e-4) differs from E by at most max(-E ln E) 3e-4 = 1.1e-4.
+/// The authors' evaluator uses float: a feature difference that should be 0 is about 1e-7, its square
+/// root 3e-4, and the error E^(1 - 3e-4) differs from E by at most max(-E ln E) 3e-4 = 1.1e-4.
 constexpr double float_noise = 1.5e-4;
 
 TEST(Flip, AgreesWithTheAuthorsOnDisplayedPictures)
@@ -74,7 +74,7 @@ TEST(Flip, AgreesWithTheAuthorsOnRadiances)
     };
     const Image reference = lit(waves);
     const auto [start, stop, count] = images::flip_exposures(reference);
-    // Their luminance takes 0.0721802 of blue, ours 0.0721923: log2(1 + 1.7e-4) = 2.5e-4 at most.
+    // Their luminance has 0.0721802 of blue, ours 0.0721923: log2(1 + 1.7e-4) = 2.5e-4 at most.
     EXPECT_NEAR(start, -3.0724800, 2.5e-4);
     EXPECT_NEAR(stop, -0.6713588, 2.5e-4);
     EXPECT_EQ(count, 3);
@@ -93,7 +93,8 @@ TEST(Flip, OfAPictureWithItselfIsZero)
 
 TEST(Flip, OfGreenAndBlueIsOne)
 {
-    // The largest difference that there is, by construction; no feature differs between flat pictures.
+    // The largest possible difference, by construction. Flat pictures have no features that could
+    // differ.
     const auto map = images::flip_of_displayed(paint([](int, int) { return Rgb(0.0, 1.0, 0.0); }),
                                                paint([](int, int) { return Rgb(0.0, 0.0, 1.0); }));
     for (const double e : map) EXPECT_NEAR(e, 1.0, 1e-6); // rounding of the filters, raised to powers

@@ -1,6 +1,6 @@
 #pragma once
 
-// Random pictures for RapidCheck: small, of odd sizes, with every kind of float.
+// Random pictures for RapidCheck: small, of odd sizes, with all kinds of floats.
 
 #include "images/film.h"
 
@@ -40,7 +40,8 @@ images::Image any_image(const rc::Gen<Value>& value, int width = 0, int height =
     return image;
 }
 
-/// The same bits, or both NaN: conversions between float and double may change which NaN it is.
+/// Whether the bits are the same, or both are NaN: conversions between float and double may change a
+/// NaN.
 inline bool same_value(double a, double b)
 {
     return (std::isnan(a) && std::isnan(b)) ||
@@ -56,7 +57,7 @@ inline bool same_values(const images::Image& a, const images::Image& b)
     return true;
 }
 
-/// Every bit the same, NaNs included.
+/// Whether every bit is the same, also in NaNs.
 inline bool same_bits(const images::Image& a, const images::Image& b)
 {
     if (a.width != b.width || a.height != b.height || a.pixels.size() != b.pixels.size()) return false;
@@ -68,14 +69,14 @@ inline bool same_bits(const images::Image& a, const images::Image& b)
     return true;
 }
 
-/// The float nearest to `value`. A call, so that it stays one: g++ 12.2 at -O2 takes a pair of
-/// conversions double-float-double in vector registers for nothing, and drops it.
+/// The float nearest to `value`. Not inlined: g++ 12.2 at -O2 treats a pair of conversions
+/// double-float-double in vector registers as no change, and removes it.
 [[gnu::noinline]] inline float nearest_float(double value)
 {
     return static_cast<float>(value);
 }
 
-/// `image` as a file of floats holds it.
+/// `image` after its values were stored as floats in a file.
 inline images::Image rounded_to_float(images::Image image)
 {
     for (images::Rgb& pixel : image.pixels)

@@ -106,7 +106,7 @@ RC_GTEST_PROP(Pfm, ArbitraryBytesNeverCrashTheReader, ())
         const Image image = images::read_pfm(folder / "a.pfm");
         RC_ASSERT(image.pixels.size() * 4 <= bytes.size());
     } catch (const ImageError&) {
-        // What is no picture is refused.
+        // Bytes that are no picture are refused.
     }
 }
 
@@ -122,7 +122,7 @@ TEST(Pfm, ThePictureOfAnotherRendererIsRead)
     EXPECT_EQ(image.height, 160);
     Rgb sum(0.0);
     for (const Rgb& pixel : image.pixels) sum += pixel;
-    // What its makers state, to the last digit that they give, with their error of 2e-5.
+    // The mean that its makers state, to the last digit given, with their error of 2e-5.
     const Rgb mean = sum / static_cast<double>(image.pixels.size());
     EXPECT_NEAR(mean.r, 0.10918, 2e-5);
     EXPECT_NEAR(mean.g, 0.08058, 2e-5);

@@ -1,4 +1,4 @@
-// The door by itself: a renderer of ten lines that is neither of our two, and what the loop makes of it.
+// The interface Renderer alone: a renderer of ten lines, and the results of the loops that call it.
 
 #include "images/renderer.h"
 
@@ -13,7 +13,7 @@ using images::Batch;
 using images::Image;
 using images::Rgb;
 
-/// Pixel i of batch n is n + i / 10. Says after each batch that it is done, and asks before whether to
+/// Pixel i of batch n is n + i / 10. Reports progress after each batch, and asks before each whether to
 /// stop.
 class Counting : public images::Renderer {
 public:
@@ -44,7 +44,7 @@ TEST(Fill, AddsTheBatchesThatTheFilmLacksInOrder)
     };
     EXPECT_TRUE(images::fill(film, 2, renderer, {}, added));
     EXPECT_TRUE(images::fill(film, 5, renderer, {}, added));
-    EXPECT_TRUE(images::fill(film, 5, renderer, {}, added)); // holds them already
+    EXPECT_TRUE(images::fill(film, 5, renderer, {}, added)); // the film has them already
     EXPECT_EQ(first_pixels, (std::vector<double>{0, 1, 2, 3, 4}));
     EXPECT_EQ(held, (std::vector<std::uint64_t>{1, 2, 3, 4, 5}));
     EXPECT_DOUBLE_EQ(film.mean().pixels[3].x, 2.3);
@@ -75,11 +75,11 @@ TEST(RenderBatches, GoesThroughTheRange)
     std::vector<double> seen;
     const auto note = [&](const Batch& batch) { seen.push_back(batch.mean.pixels[0].x); };
     EXPECT_TRUE(images::render_batches(renderer, 7, 9, {}, note));
-    EXPECT_TRUE(images::render_batches(renderer, 9, 9, {}, note)); // none
+    EXPECT_TRUE(images::render_batches(renderer, 9, 9, {}, note)); // no batch
     EXPECT_EQ(seen, (std::vector<double>{7, 8}));
 }
 
-// No renderer can leave something out in silence: the door itself sees to that.
+// No renderer can drop contributions without a report: the interface itself checks this.
 TEST(Renderer, ReportsWhatIsNotFiniteOrThrows)
 {
     Counting renderer;

@@ -1,6 +1,6 @@
 #pragma once
 
-// A folder of a test's own, gone when the test is over.
+// A folder for one test, removed at the end of the test.
 
 #include <unistd.h>
 
@@ -17,7 +17,7 @@ class TemporaryFolder {
 public:
     TemporaryFolder()
     {
-        // In memory where there is such a folder: waiting for a disk is not what is tested.
+        // In memory if there is such a folder: these tests do not test the speed of a disk.
         const std::filesystem::path memory = "/dev/shm";
         const bool in_memory = access(memory.c_str(), W_OK) == 0;
         std::string name =
@@ -56,7 +56,7 @@ inline std::string read_bytes(const std::filesystem::path& path)
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The message of the Error that `action` throws; the empty string if it throws none.
+/// The message of the Error that `action` throws; empty if it throws none.
 template <class Error, class Action>
 std::string error_of(Action action)
 {

@@ -1,5 +1,5 @@
-// The fast path against the goldens, which the reference made: every scene, by every integrator and
-// executor.
+// Compares the fast path with the goldens, which the reference made: every scene, by every integrator
+// and executor.
 
 #include "cuda/launch/renderer.h"
 #include "scenes/requirements.h"
@@ -60,12 +60,13 @@ void expect_bdpt_agrees(const std::string& name, Where where)
         << renders_test::with_report(name, "fast_bdpt", judged);
 }
 
-/// Another estimator than the golden's: where its noise is too skewed the comparison is inconclusive.
+/// The estimator differs from the golden's. If its noise is too skewed, the comparison is inconclusive.
 void expect_path_does_not_disagree(const std::string& name, Where where)
 {
     const Judged judged = judge(name, fast::Integrator::path, where, golden::Method::welch);
     if (name == "point_in_glass") {
-        // No walk from the eye meets a point, and no shadow ray bends: that light is not there for it.
+        // No eye walk hits a point light, and no shadow ray refracts: path tracing cannot find this
+        // light.
         EXPECT_EQ(judged.comparison.verdict, golden::Verdict::fail);
         return;
     }
@@ -77,7 +78,8 @@ void expect_light_does_not_disagree(const std::string& name, Where where)
 {
     const auto needs = scenes::requirements(scenes::read_scene(renders_test::scene_of(name)));
     if (needs.bsdfs.contains(scenes::Bsdf::mirror) || needs.bsdfs.contains(scenes::Bsdf::glass))
-        GTEST_SKIP() << "light that the camera sees by mirrors and glass alone makes no light image";
+        GTEST_SKIP()
+            << "light tracing cannot find light that the camera sees by way of mirrors or glass";
     const Judged judged = judge(name, fast::Integrator::light, where, golden::Method::welch);
     EXPECT_NE(judged.comparison.verdict, golden::Verdict::fail)
         << renders_test::with_report(name, "fast_light", judged);

@@ -1,8 +1,9 @@
-// The reference integrators against the goldens, by the procedure of golden/compare.h, with fresh random
-// numbers every time. A picture that fails leaves its report, and the message says where.
+// Compares the reference integrators with the goldens, by the procedure of golden/compare.h, with new
+// random numbers in each run. For a picture that fails, a report is written, and the message names its
+// file.
 //
-// The short version spends a few seconds per scene and says what error of the whole picture it could
-// have seen; PLUMBLINE_LONG=1 takes as many batches as it takes to see half a percent.
+// The short version takes a few seconds per scene and prints the error of the whole picture that it
+// could have detected. PLUMBLINE_LONG=1 uses enough batches to detect half a percent.
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
@@ -42,13 +43,15 @@ TEST_P(Golden, BidirectionalPathTracingAgrees)
         << with_report(GetParam(), "bdpt", judged);
 }
 
-/// Another estimator, so its batches are distributed otherwise and means are compared: where its noise
-/// is too skewed for that the comparison is inconclusive, which is no failure, and no proof either.
+/// The estimator differs from the golden's, so its batches have another distribution, and means are
+/// compared. If its noise is too skewed for that, the comparison is inconclusive: neither failed nor
+/// passed.
 TEST_P(Golden, PathTracingDoesNotDisagree)
 {
     const Judged judged = judge(GetParam(), "path", ref::trace_path, golden::Method::welch);
     if (GetParam() == "point_in_glass") {
-        // No walk from the eye meets a point, and no shadow ray bends: that light is not there for it.
+        // No eye walk hits a point light, and no shadow ray refracts: path tracing cannot find this
+        // light.
         EXPECT_EQ(judged.comparison.verdict, golden::Verdict::fail);
         return;
     }
@@ -73,7 +76,7 @@ TEST(Goldens, EverySceneHasOneOfItsPresentState)
 
 TEST(Goldens, LetAnErrorOfHalfAPercentBeSeen)
 {
-    // The door leaves light to find its way by chance: on two cores that would take hours.
+    // Almost no light passes the door, so the noise is large: on two cores this would take hours.
     const std::set<std::string> unaffordable = {"door_ajar"};
     for (const std::string& name : scenes_with_goldens()) {
         const auto detectable = golden::detectable_error(golden::read_golden(golden_of(name)),

@@ -1,7 +1,7 @@
-// judge_renders: verdicts on renders by the reference, right ones and wrong ones, as a table.
+// judge_renders: prints a table of verdicts on renders by the reference, right ones and wrong ones.
 //
-// The calibration with simulated noise (tests/calibration) counts millions of trials of a renderer that
-// does not exist; this counts hundreds of one that does.
+// The calibration with simulated noise (tests/calibration) counts millions of trials of a simulated
+// renderer; this program counts hundreds of trials of a real one.
 
 #include "cli/progress.h"
 #include "golden/compare.h"
@@ -38,8 +38,9 @@ struct Case {
 constexpr std::array cases = {Case{"point_over_plane", 4, 67, 12}, Case{"near_occluder", 4, 67, 12},
                               Case{"all_emitters", 12, 67, 12}};
 
-/// The picture that a camera half a pixel to the side takes: every other column of one twice as wide
-/// belongs to the neighbour. The last column has none and stays.
+/// The picture of a camera that is shifted by half a pixel to the side, computed from a picture of twice
+/// the resolution: each column takes one fine column from its right neighbour. The last column has no
+/// such neighbour and is not shifted.
 images::Image shifted(const images::Image& fine)
 {
     images::Image image(fine.width / 2, fine.height / 2);

@@ -1,6 +1,6 @@
 #pragma once
 
-// A scene rendered in stages by a renderer, right or wrong, and judged by its golden.
+// Renders a scene in stages, with a right or wrong renderer, and compares it with its golden.
 
 #include "golden/compare.h"
 #include "golden/report.h"
@@ -39,7 +39,7 @@ struct Judged {
     images::Metadata metadata;
 };
 
-/// What a renderer is told: the golden's own parameters.
+/// The parameters of a renderer: those of the golden.
 struct Plan {
     const scenes::Scene& scene;
     int width, height;
@@ -47,11 +47,11 @@ struct Plan {
     int max_edges;
 };
 
-/// The batch of that number of a picture with that seed.
+/// Renders the batch of this number of the picture with this seed.
 using RenderBatch = std::function<images::Image(std::uint64_t seed, std::uint64_t number)>;
 
-/// Renders with random numbers that nobody used before, by what `make_renderer` makes of the plan. The
-/// integrator calls itself `calls_itself` in the metadata.
+/// Renders with a new random seed, with the renderer that `make_renderer` makes for the plan, and
+/// compares the result with the golden. `calls_itself` is the name of the integrator in the metadata.
 inline Judged judged(const std::string& name,
                      const std::function<RenderBatch(const Plan&)>& make_renderer,
                      const std::string& calls_itself, golden::Method method,
@@ -78,7 +78,7 @@ inline Judged judged(const std::string& name,
     return result;
 }
 
-/// The same by the reference.
+/// The same for an integrator of the reference.
 inline Judged judged(const std::string& name, ref::Integrator integrator,
                      const std::string& calls_itself, golden::Method method,
                      const golden::CompareOptions& options)
@@ -103,9 +103,9 @@ inline bool is_long()
     return value != nullptr && std::string(value) == "1";
 }
 
-/// The first stage is what every run costs, the other is for a suspicion. Fewer than some 20 batches
-/// could not convict anyone: the ranks of so few say too little. PLUMBLINE_LONG=1 takes as many batches
-/// as it takes to see half a percent.
+/// Every run renders the first stage; the second is rendered only to confirm a suspicion. Fewer than
+/// some 20 batches could not confirm one: the ranks of so few batches carry too little information.
+/// PLUMBLINE_LONG=1 uses enough batches to detect half a percent.
 inline golden::CompareOptions short_options()
 {
     golden::CompareOptions options;
@@ -124,7 +124,7 @@ inline std::vector<std::string> scenes_with_goldens()
     return names;
 }
 
-/// Says on stdout what was found.
+/// Prints the verdict and its reason to stdout.
 inline void print(const std::string& name, const std::string& estimator, const Judged& judged)
 {
     std::cout << name << ", " << estimator << ", seed " << judged.metadata.at("seed") << ": "
@@ -132,7 +132,7 @@ inline void print(const std::string& name, const std::string& estimator, const J
               << " Conclusive: " << 100.0 * judged.comparison.coverage << "% of the tests.\n";
 }
 
-/// Writes the report of a failure and says where.
+/// Writes the report of a failure. Returns the reason and the path of the report.
 inline std::string with_report(const std::string& name, const std::string& estimator,
                                const Judged& judged)
 {

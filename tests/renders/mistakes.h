@@ -1,6 +1,6 @@
 #pragma once
 
-// Bidirectional path tracers that are wrong in ways that renderers have been wrong.
+// Wrong bidirectional path tracers, with defects that real renderers have had.
 
 #include "ref/transport/bdpt.h"
 
@@ -31,13 +31,13 @@ inline void dim_by_two_percent(Contribution& c)
     c.value *= 0.98;
 }
 
-/// The weights of a course report: all strategies of a length alike, possible or not.
+/// The weights of a course report: the same for all strategies of a length, possible or not.
 inline void weigh_uniformly(Contribution& c)
 {
     c.weight = 1.0 / (c.s + c.t);
 }
 
-/// The light image of a crop, its share of the film forgotten.
+/// The light image of a crop without the factor for its share of the film.
 inline void scale_splats(Contribution& c)
 {
     if (c.t == 1) c.value *= 0.5;
@@ -53,7 +53,7 @@ inline void drop_inner_connection(Contribution& c)
     if (c.s == 2 && c.t == 2) c.weight = 0.0;
 }
 
-/// What light paths show lands a pixel to the left: a projection that rounds wrongly.
+/// Splats land one pixel to the left: a projection that rounds wrongly.
 inline void misplace_splats(Contribution& c)
 {
     if (c.t == 1 && c.pixel > 0) --c.pixel;

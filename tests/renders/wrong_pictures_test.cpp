@@ -1,4 +1,4 @@
-// Renderers that are wrong in ways that renderers have been wrong, judged by the goldens: each is found.
+// Compares wrong renderers (mistakes.h) with the goldens: each is found.
 
 #include "tests/renders/judged.h"
 #include "tests/renders/mistakes.h"

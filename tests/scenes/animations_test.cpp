@@ -1,4 +1,4 @@
-// Animations are not followed: there is a notice of those that would move or change the picture.
+// Animations are not followed: those that would move or change the picture give a notice.
 
 #include "tests/scenes/scene_text.h"
 
@@ -11,15 +11,15 @@ namespace {
 
 using Notices = std::vector<std::string>;
 
-const std::string transforms_stand = "the animation is not followed: the nodes' own transforms stand";
+const std::string transforms_stand = "the animation is not followed: the nodes' own transforms are used";
 
 std::string channel(const std::string& target)
 {
     return "<channel source=\"#gone\" target=\"" + target + "\"/>";
 }
 
-/// The notices of a room with one of each kind of element in use and one not in use, whose file has
-/// these <animation>s.
+/// The notices of a room whose file has these <animation>s, and of each kind of element one in use and
+/// one not in use.
 Notices notices_with(const std::string& animations)
 {
     transport_test::SceneText text;
@@ -59,7 +59,7 @@ TEST(Animations, OfNodesInThePictureAreNoticed)
 TEST(Animations, OfOtherThingsInThePictureAreNoticed)
 {
     const auto values_stand = [](const std::string& element) {
-        return "the animation is not followed: the values in " + element + " stand";
+        return "the animation is not followed: the values in " + element + " are used";
     };
     for (const auto& [target, element] :
          {std::pair{"eye/xfov", "<camera id=\"eye\">"}, std::pair{"bulb/c.R", "<light id=\"bulb\">"},

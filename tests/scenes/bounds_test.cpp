@@ -89,7 +89,7 @@ RC_GTEST_PROP(FrameCamera, WhereTheCameraStoodDoesNotMatter, ())
     scenes::frame_camera(moved);
     RC_ASSERT(scene.camera->eye == moved.camera->eye);
     scenes::frame_camera(moved);
-    RC_ASSERT(scene.camera->eye == moved.camera->eye); // twice is once
+    RC_ASSERT(scene.camera->eye == moved.camera->eye); // a second call changes nothing
 }
 
 TEST(FrameCamera, WithoutACameraOrGeometryThereIsAnError)
@@ -106,10 +106,10 @@ TEST(FrameCamera, WithoutACameraOrGeometryThereIsAnError)
     too_large.camera = scenes::Camera{};
     too_large.spheres[0].radius = std::numeric_limits<double>::max();
     EXPECT_THROW(scenes::frame_camera(too_large), scenes::SceneError);
-    EXPECT_EQ(too_large.camera->eye, Vec3(0.0)); // untouched
+    EXPECT_EQ(too_large.camera->eye, Vec3(0.0)); // unchanged
 }
 
-// The numbers stand in scenes/frame.h: along (-1, 2, -1) with z up, at 45 degrees horizontally.
+// The numbers are those of scenes/frame.h: along (-1, 2, -1) with z up, at 45 degrees horizontally.
 RC_GTEST_PROP(AddCamera, SeesTheSceneFromTheFrontRightAndAbove, ())
 {
     Scene scene = random_geometry();

@@ -117,7 +117,7 @@ RC_GTEST_PROP(Cameras, TheAxesAreOrthonormalToRoundingWhateverTheDigitsOfTheFile
     RC_ASSERT(std::abs(glm::dot(camera.right, camera.up)) < rounding &&
               std::abs(glm::dot(camera.up, camera.backward)) < rounding &&
               std::abs(glm::dot(camera.backward, camera.right)) < rounding);
-    // The axes meant, to the digits of the file: an error of 1e-6 in each of nine entries.
+    // The intended axes, to the digits of the file: an error of 1e-6 in each of nine entries.
     RC_ASSERT(glm::distance(camera.right, x) < 1e-5 && glm::distance(camera.up, y) < 1e-5 &&
               glm::distance(camera.backward, z) < 1e-5);
 }

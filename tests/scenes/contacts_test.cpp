@@ -1,4 +1,4 @@
-// Which surfaces coincide, and on which a point lies.
+// Coincident surfaces, and points on surfaces.
 
 #include "scenes/contacts.h"
 #include "scenes/overlapping_boxes.h"
@@ -30,7 +30,7 @@ Vec3 any_point(double half)
     return {any_between(-half, half), any_between(-half, half), any_between(-half, half)};
 }
 
-/// An orthonormal frame and an origin: files hold walls at any angle.
+/// An orthonormal frame and an origin: walls in files may have any angle.
 struct Place {
     Vec3 origin, x, y, z;
     [[nodiscard]] Vec3 operator()(double a, double b, double c) const
@@ -68,8 +68,8 @@ RC_GTEST_PROP(Coincidences, ALampInItsWallCoincidesWithWhatItOverlapsAndNeighbou
 {
     Scene scene;
     const Place place = any_place();
-    add_rectangle(scene, place, -2, -2, 2, 2, 0);            // 0, 1: parted by the diagonal
-    add_rectangle(scene, place, 2, -2, 3, 2, 0);             // 2, 3: goes on beside it
+    add_rectangle(scene, place, -2, -2, 2, 2, 0);            // 0, 1: divided by the diagonal
+    add_rectangle(scene, place, 2, -2, 3, 2, 0);             // 2, 3: continues the wall beside it
     add_rectangle(scene, place, 0.5, -0.9, 1.5, -0.2, 0);    // 4, 5: a lamp on the right of the diagonal
     add_rectangle(scene, place, 0.5, -0.9, 1.5, -0.2, 1e-9); // 6, 7: clearly in front of it
     const double size = std::ldexp(1.0, *rc::gen::inRange(-500, 500)); // 1e-150 to 1e150

@@ -1,5 +1,5 @@
-// Five files of a course that nobody here wrote. They are not part of this repository: the tests skip
-// where they are absent. What is expected of them was established by looking at the files.
+// Five files of a course, written by others. They are not part of this repository: the tests are skipped
+// where the files are absent. The expected values were found by inspection of the files.
 
 #include "scenes/bounds.h"
 #include "scenes/frame.h"
@@ -23,7 +23,7 @@ namespace {
 using scenes::Scene;
 using scenes::Vec3;
 
-// The files carry seven digits: numbers of about 1 are off by up to 1e-7, products of a few of them by
+// The files have seven digits: numbers of about 1 err by up to 1e-7, and products of a few of them by
 // less than this.
 constexpr double digits = 1e-6;
 
@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(All, CourseScene,
 
 TEST_P(CourseScene, HasItsTrianglesAndSpheresAndMaterials)
 {
-    // The room with its luminaire has 12 triangles: the mesh of the coil 7,872, that of the bunny
+    // The room with its luminaire has 12 triangles, the mesh of the coil 7,872, that of the bunny
     // 28,576.
     const std::size_t triangles = is("cow") ? 5856 : is("CBcoil") ? 7884 : is("CBbunny") ? 28588 : 12;
     const std::size_t spheres = is("CBspheres") || is("CBspheres_lambertian") ? 2 : 0;
@@ -69,7 +69,7 @@ TEST_P(CourseScene, HasOneLuminaireFacingDown)
                  [&](const auto& t) {
                      return std::holds_alternative<scenes::Emission>(scene.materials[t.material]);
                  });
-    if (is("cow")) { // lit by the sun alone
+    if (is("cow")) { // lit only by the sun
         EXPECT_TRUE(luminaire.empty());
         ASSERT_EQ(scene.directional_lights.size(), 1);
         EXPECT_EQ(scene.directional_lights[0].irradiance, Vec3(1.0));
@@ -91,7 +91,7 @@ TEST_P(CourseScene, HasOneLuminaireFacingDown)
         }
         EXPECT_EQ(std::get<scenes::Emission>(scene.materials[triangle.material]).radiance, Vec3(10.0));
     }
-    // Four files move it by 0.0043 in y.
+    // In four files it is moved by 0.0043 in y.
     const double shift = is("CBbunny") ? 0 : 0.004315853;
     EXPECT_LT(glm::length(low - Vec3(-0.4, shift - 0.3, 1.49)), digits);
     EXPECT_LT(glm::length(high - Vec3(0.4, shift + 0.3, 1.49)), digits);

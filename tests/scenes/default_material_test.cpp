@@ -1,4 +1,4 @@
-// What surfaces look like that no material is bound to.
+// The material of surfaces without a bound material.
 
 #include "tests/scenes/scene_text.h"
 
@@ -27,7 +27,7 @@ std::string part(const std::string& symbol, const std::string& corners = "0 1 2"
            "</p></triangles>";
 }
 
-/// What is read, with a lamp beside it so that there is no notice of a scene without an emitter.
+/// The scene as read, with a lamp, so that there is no notice of a scene without an emitter.
 scenes::Scene lit(transport_test::SceneText text)
 {
     text.lights = "<light id=\"l\"><technique_common><point><color>1 1 1</color></point>"

@@ -15,7 +15,7 @@ namespace {
 
 using scenes::Vec3;
 
-/// A mesh with everything in it that the format lets vary.
+/// A mesh that varies everything that the format allows to vary.
 struct RandomMesh {
     std::vector<Vec3> positions;
     std::vector<std::vector<std::uint32_t>> polygons;
@@ -44,13 +44,13 @@ RandomMesh random_mesh(bool only_triangles)
     return mesh;
 }
 
-/// The positions in an array with a random accessor offset, stride and order of X, Y and Z; what lies
-/// between is filled with numbers that would show.
+/// The positions in an array with a random accessor offset, stride and order of X, Y and Z. The numbers
+/// between them differ from all coordinates, so that a wrong index is detected.
 std::string source_text(const std::vector<Vec3>& positions)
 {
     const auto stride = static_cast<std::size_t>(*rc::gen::inRange(3, 8));
     const auto offset = static_cast<std::size_t>(*rc::gen::inRange(0, 5));
-    std::vector<int> places(stride, -1); // which axis lies where
+    std::vector<int> places(stride, -1); // the axis at each place
     std::array<std::size_t, 3> place_of{};
     for (int axis = 0; axis < 3; ++axis) {
         auto place = static_cast<std::size_t>(*rc::gen::inRange<int>(0, static_cast<int>(stride)));
@@ -59,7 +59,7 @@ std::string source_text(const std::vector<Vec3>& positions)
         place_of[static_cast<std::size_t>(axis)] = place;
     }
     const std::size_t last = *std::max_element(place_of.begin(), place_of.end());
-    // The array may end with the last coordinate, before the stride is full.
+    // The array may end after the last coordinate, before the end of the stride.
     std::vector<double> values(offset + (positions.size() - 1) * stride + last + 1, 12345678.0);
     for (std::size_t i = 0; i < positions.size(); ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -218,7 +218,7 @@ TEST(PolygonFaults, PolygonsThatCrossThemselvesAreCounted)
     EXPECT_EQ(notices_of("0 0 0 4 4 0 4 0 0 0 3 0", 4, {"0 1 2 3", "0 2 1 3"}),
               std::vector<std::string>{
                   place_of_g + "1 polygon(s) cross themselves or their holes: cut into triangles "
-                               "around the first corner, which cover other than they do"});
+                               "around the first corner, which cover a different area"});
 }
 
 TEST(PolygonFaults, ZeroAreaTrianglesAreKeptAndSmallerPolygonsDropped)
@@ -249,7 +249,7 @@ scenes::Scene with_hole(const std::string& ph)
 
 TEST(Geometries, HolesStayOpen)
 {
-    for (const std::string hole : {"4 5 6", "6 5 4"}) { // whichever way it turns
+    for (const std::string hole : {"4 5 6", "6 5 4"}) { // in either direction
         const scenes::Scene scene = with_hole("<ph><p>0 1 2 3</p><h>" + hole + "</h></ph>");
         ASSERT_EQ(scene.triangles.size(), 1 + 7 + 1);
         EXPECT_EQ(scene.triangles[0].vertices[2], Vec3(2, 2, 0));

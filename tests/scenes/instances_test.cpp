@@ -64,12 +64,12 @@ RC_GTEST_PROP(MirroredNodes, TheFrontOfATriangleIsTheImageOfItsFront, ())
         linear * Vec3(0, 0, 1) + Vec3(1, 2, 3); // the local point (0, 0, 1) is in front
     RC_ASSERT(triangle.vertices[0] == Vec3(1, 2, 3));
     RC_ASSERT(glm::dot(area_vector(triangle), before_front - triangle.vertices[0]) > 0);
-    // The corners are the same, whatever their order.
+    // The corners are the same, in any order.
     RC_ASSERT(triangle.vertices[0] + triangle.vertices[1] + triangle.vertices[2] ==
               3.0 * Vec3(1, 2, 3) + linear[0] + linear[1]);
 }
 
-// Exact, but for the halves, which are exact as well.
+// Exact, except for the halves, which are exact as well.
 RC_GTEST_PROP(AreaLights, TheSquareEmitsToTheImageOfItsNegativeZ, ())
 {
     const glm::dmat3 linear = random_invertible();
@@ -85,7 +85,7 @@ RC_GTEST_PROP(AreaLights, TheSquareEmitsToTheImageOfItsNegativeZ, ())
         RC_ASSERT(std::get<scenes::Emission>(scene.materials.at(triangle.material)).radiance ==
                   Vec3(4, 5, 6));
         RC_ASSERT(glm::dot(area_vector(triangle), linear * Vec3(0, 0, -1)) > 0);
-        // Each half covers half of the parallelogram that the square becomes.
+        // Each half covers half of the parallelogram that is the image of the square.
         RC_ASSERT(area_vector(triangle) == area_vector(scene.triangles[0]));
         const Vec3 whole = glm::cross(linear[0], linear[1]);
         RC_ASSERT(area_vector(triangle) == whole || area_vector(triangle) == -whole);
@@ -248,7 +248,7 @@ TEST(Instances, NodesOfTheLibraryCanBeInstancedBelowOneAnother)
 
 TEST(Instances, NodesThatMultiplyThemselvesAreStopped)
 {
-    // 60 nodes, each with two instances of the next: 2^60 triangles, or as many visits of nothing.
+    // 60 nodes, each with two instances of the next: 2^60 triangles, or as many visits of empty nodes.
     for (const std::string& leaf : {transport_test::instance_geometry("t"), std::string()}) {
         transport_test::SceneText text;
         text.geometries = transport_test::triangle_mesh("t");

@@ -35,7 +35,7 @@ TEST(Lights, APointLightStandsAtItsNodeAndItsAttenuationIsIgnored)
         common("<point><color>1 2 "
                "3</color><constant_attenuation>1</constant_attenuation><linear_attenuation>0"
                "</linear_attenuation><quadratic_attenuation>7</quadratic_attenuation></point>"),
-        "<translate>4 5 6</translate><scale>0 0 0</scale>"); // no extent, so nothing to be singular
+        "<translate>4 5 6</translate><scale>0 0 0</scale>"); // a point: a singular transform is allowed
     ASSERT_EQ(scene.point_lights.size(), 1);
     EXPECT_EQ(scene.point_lights[0].position, Vec3(4, 5, 6));
     EXPECT_EQ(scene.point_lights[0].intensity, Rgb(1, 2, 3));

@@ -1,4 +1,4 @@
-// The table of malformed files: one valid file, and for each kind of mistake the edit that makes it.
+// The table of malformed files: one valid file, and for each kind of mistake the edit that produces it.
 
 #include "scenes/read_scene.h"
 
@@ -160,7 +160,7 @@ const std::string valid_file = R"(<?xml version="1.0" encoding="utf-8"?>
 </COLLADA>
 )";
 
-/// The message of the SceneError that `xml` raises; empty if it raises none. Any other exception passes.
+/// The message of the SceneError that `xml` raises; empty if it raises none. Other exceptions propagate.
 std::string error_of(std::string_view xml)
 {
     try {
@@ -180,8 +180,8 @@ TEST(MalformedFiles, TheFileThatTheyAreMadeFromIsSound)
     EXPECT_TRUE(scene.notices.empty());
 }
 
-/// `from`, which the valid file has once, becomes `to`; the message is `message`, preceded by the file
-/// and the line of `where`, which the malformed file has once.
+/// `from`, which the valid file contains once, becomes `to`. The expected message is `message`, preceded
+/// by the file and the line of `where`, which the malformed file contains once.
 struct Mistake {
     const char* name;
     std::string from;
@@ -204,7 +204,7 @@ std::size_t position_of_only(const std::string& text, const std::string& part)
     return position;
 }
 
-/// The line of the valid file where `part` stands.
+/// The line of `part` in the valid file.
 std::string line_of(const std::string& part)
 {
     const auto position = static_cast<std::ptrdiff_t>(position_of_only(valid_file, part));
@@ -499,7 +499,7 @@ const Mistake mistakes[] = {
      "<haze>: not known inside <glass>"},
     {"ProfileInTheWrongPlace", "<mesh>",
      "<mesh><extra><technique profile=\"CMU462\"><fur/></technique></extra>", "<fur/>",
-     "<fur>: the CMU462 profile says nothing of <mesh>"},
+     "<fur>: the CMU462 profile does not apply to <mesh>"},
     {"ProfileOutsideExtra", "<light id=\"panel\">",
      "<light id=\"panel\"><technique profile=\"CMU462\"/>", "<light id=\"panel\">",
      "<technique>: the CMU462 profile belongs in an <extra>"},
@@ -600,7 +600,7 @@ TEST(MalformedFiles, WhatIsNotUtf8IsRefused)
     EXPECT_EQ(error_of(valid_file + std::string(1, '\0')),
               "bad.dae:" + std::to_string(1 + std::count(valid_file.begin(), valid_file.end(), '\n')) +
                   ": byte " + std::to_string(valid_file.size()) + " is not part of a text in UTF-8");
-    EXPECT_EQ(error_of("\xEF\xBB\xBF" + valid_file), ""); // a byte order mark is fine
+    EXPECT_EQ(error_of("\xEF\xBB\xBF" + valid_file), ""); // a byte order mark is allowed
 }
 
 TEST(MalformedFiles, DeepNestingIsRefusedBeforeItFillsTheStack)
@@ -635,7 +635,7 @@ TEST(MalformedFiles, EveryTruncationIsNoticed)
     EXPECT_EQ(error_of(whole), "");
 }
 
-// Whatever the bytes: a scene, or an error of one line that begins with the file's name.
+// For any bytes: a scene, or an error of one line that begins with the file's name.
 RC_GTEST_PROP(MalformedFiles, RandomDamageIsSurvived, ())
 {
     std::string text = valid_file;

@@ -9,7 +9,7 @@ namespace {
 
 using scenes::Rgb;
 
-/// What an <effect> with this content means, read off a sphere that wears it.
+/// The material of an <effect> with this content, read from a sphere that has it.
 transport_test::SceneText with_effect(const std::string& content)
 {
     transport_test::SceneText text;

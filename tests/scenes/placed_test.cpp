@@ -1,4 +1,4 @@
-// A scene brought near the origin and to about one unit: what changes, what does not, what is refused.
+// A scene moved near the origin and scaled to about one unit: what changes, what does not, what fails.
 
 #include "scenes/bounds.h"
 #include "scenes/placed.h"
@@ -19,7 +19,7 @@ using scenes::Rgb;
 using scenes::Scene;
 using scenes::Vec3;
 
-/// A triangle, a sphere, both kinds of lights that have a place, and a camera.
+/// A triangle, a sphere, both kinds of lights that have a position, and a camera.
 Scene small_scene()
 {
     Scene scene;
@@ -39,7 +39,7 @@ Scene small_scene()
     return scene;
 }
 
-/// Every length times 2^exponent, every intensity times its square.
+/// Multiplies every length by 2^exponent and every intensity by the square of that.
 Scene times_power(Scene scene, int exponent)
 {
     const auto scale = [&](double x) { return std::ldexp(x, exponent); };
@@ -81,7 +81,7 @@ void expect_same(const Scene& a, const Scene& b)
 
 RC_GTEST_PROP(Placed, NoPowerOfTwoChangesABit, ())
 {
-    // Intensities follow the square: beyond 2^500 they would leave the range of doubles.
+    // Intensities scale with the square: beyond 2^500 they would leave the range of doubles.
     const int exponent = *rc::gen::inRange(-500, 501);
     const Scene once = scenes::placed(small_scene());
     RC_ASSERT(diagonal(once) >= 1.0);
@@ -110,7 +110,7 @@ TEST(Placed, ASceneNearTheOriginKeepsItsDigits)
 
 TEST(Placed, AFarSceneMovesExactly)
 {
-    // The moved coordinates are whole multiples of 2^-20: no digit is lost on the way there or back.
+    // The moved coordinates are whole multiples of 2^-20: moving there and back loses no digit.
     Scene scene = small_scene();
     const auto rounded = [](Vec3& v) { v = glm::round(v * 0x1p20) / 0x1p20; };
     for (auto& v : scene.triangles[0].vertices) rounded(v);

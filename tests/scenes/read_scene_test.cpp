@@ -19,8 +19,8 @@ TEST(ReadScene, TheNameIsThatOfTheFileWithoutFolderAndEnding)
 
 TEST(ReadScene, TheHashIsThatOfTheBytes)
 {
-    // XXH3 with 64 bits and seed 0 of "<COLLADA .../>" is not to be had by hand: what it must do is tell
-    // files apart, agree with itself, and have 16 digits.
+    // The value of XXH3 (64 bits, seed 0) of this text is not known independently. The hash must differ
+    // between files, be the same for the same bytes, and have 16 digits.
     const std::string xml = transport_test::SceneText().str();
     const std::string hash = scenes::parse_scene(xml, "a.dae").hash;
     EXPECT_EQ(hash, scenes::parse_scene(xml, "b.dae").hash);

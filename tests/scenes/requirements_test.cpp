@@ -60,7 +60,7 @@ TEST(Requirements, AnEmptySceneRequiresNothing)
 TEST(Requirements, ShapesAndBsdfsAreThoseInSight)
 {
     Scene scene = spheres_of({mirror, glass});
-    scene.materials.emplace_back(grey); // which nothing wears
+    scene.materials.emplace_back(grey); // of no surface
     EXPECT_EQ(requirements(scene).shapes, std::set{Shape::sphere});
     EXPECT_EQ(requirements(scene).bsdfs, (std::set{Bsdf::mirror, Bsdf::glass}));
     scene.triangles.push_back(triangle);
@@ -132,7 +132,7 @@ TEST(Requirements, AmongDeltaSurfacesAnEmitterIsOnlyHitOrImagedDirectly)
     EXPECT_EQ(requirements(spheres_of({mirror, glass, lamp})).strategies, seen_directly);
     EXPECT_EQ(requirements(spheres_of({lamp})).strategies, seen_directly);
     EXPECT_EQ(requirements(spheres_of({black, lamp})).strategies,
-              seen_directly); // black joins to nothing
+              seen_directly); // black surfaces cannot be joined
 }
 
 TEST(Requirements, ADeltaEmitterAmongDeltaSurfacesLightsNothing)
@@ -169,7 +169,8 @@ std::string names(const std::set<Enumeration>& set)
     return text;
 }
 
-/// What the head comment of a scene says behind "Requires", up to the next empty line, in single spaces.
+/// The text after "Requires" in the head comment of a scene, up to the next empty line, in single
+/// spaces.
 std::string stated_requirements(const std::filesystem::path& file)
 {
     std::ifstream stream(file);

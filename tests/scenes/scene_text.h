@@ -1,7 +1,7 @@
 #pragma once
 
-// COLLADA files for tests, put together from parts: what a test is about stands in the test, the rest
-// here.
+// COLLADA files for tests, put together from parts. The part that a test is about is written in the
+// test, the rest here.
 
 #include "scenes/read_scene.h"
 
@@ -10,7 +10,7 @@
 
 namespace transport_test {
 
-/// The text of a file; each part goes into its library.
+/// The text of a file; each part is put into its library.
 struct SceneText {
     std::string cameras;
     std::string lights;

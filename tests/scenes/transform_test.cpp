@@ -21,7 +21,7 @@ using transport_test::exactly;
 
 constexpr double rounding = 0x1p-53;
 
-/// One transformation element: its text, what it does to a point, and how much it can lengthen one.
+/// One transformation element: its text, its effect on a point, and by how much it can lengthen one.
 struct Step {
     std::string text;
     std::function<Vec3(const Vec3&)> apply;
@@ -72,7 +72,7 @@ Step rotation()
             [q](const Vec3& p) { return q * p; }, 2};
 }
 
-/// The triangle (1,2,3), (-4,5,6), (7,-8,9) below nodes that nest as deep as there are lists of steps.
+/// The triangle that read_below() puts below nested nodes, one node for each list of steps.
 const std::vector<Vec3> local_points = {{1, 2, 3}, {-4, 5, 6}, {7, -8, 9}};
 
 std::vector<Vec3> read_below(const std::vector<std::vector<Step>>& nodes)
@@ -88,7 +88,7 @@ std::vector<Vec3> read_below(const std::vector<std::vector<Step>>& nodes)
         std::string transforms;
         for (const Step& step : steps) {
             transforms += step.text;
-            if (step.text.find("scale") != std::string::npos) mirrored = !mirrored; // by a negative y
+            if (step.text.find("scale") != std::string::npos) mirrored = !mirrored; // y is negative
         }
         text.nodes = "<node>" + transforms + text.nodes + "</node>";
     }
@@ -132,8 +132,8 @@ RC_GTEST_PROP(NodeTransform, ElementsAndNodesComposeFromTheInnermostOut, ())
     for (std::size_t i = 0; i < 3; ++i) RC_ASSERT(world[i] == take_to_world(nodes, local_points[i]));
 }
 
-// Tolerance: rounding. Each step takes three products and sums on either side, and each of these is off
-// by less than 16 units of 2^-53 of the largest number there can be.
+// Tolerance: rounding. Each step takes three products and sums on both sides, and each of these errs by
+// less than 16 units of 2^-53 of the largest possible number.
 RC_GTEST_PROP(NodeTransform, RotationsTurnCounterClockwiseAboutTheirAxisByDegrees, ())
 {
     Step (*const kinds[])() = {rotation, translation, scaling, rotation};

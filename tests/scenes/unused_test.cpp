@@ -1,4 +1,4 @@
-// What the picture does not need is not read: it cannot be wrong.
+// Elements that the picture does not need are not read, so their errors are not reported.
 
 #include "tests/scenes/scene_text.h"
 
@@ -9,7 +9,7 @@
 
 namespace {
 
-/// A triangle in front of nothing, lit by nothing: the picture needs a geometry and a material.
+/// A triangle without camera and lights: the picture needs a geometry and a material.
 transport_test::SceneText with_triangle()
 {
     transport_test::SceneText text;
@@ -25,7 +25,7 @@ std::string with_library(const std::string& library)
     return xml.insert(xml.find("<scene>"), library);
 }
 
-/// The error in `xml`, or "" if it is read to the one triangle with no notice but that of no emitter.
+/// The error in `xml`, or "" if it gives the one triangle and only the notice that there is no emitter.
 std::string fault_of(const std::string& xml)
 {
     try {
@@ -69,7 +69,7 @@ TEST(Unused, IdsMayBeDoubledWhereNothingRefersToThem)
     transport_test::SceneText text = with_triangle();
     text.nodes = "<node id=\"n\">" + transport_test::instance_geometry("t") + "</node><node id=\"n\"/>";
     EXPECT_EQ(fault_of(text.str()), "");
-    // A reference in what is not used itself does not count.
+    // A reference in an element that is not used itself does not count.
     text.library_nodes = "<node><instance_node url=\"#n\"/></node>";
     EXPECT_EQ(fault_of(text.str()), "");
     text.nodes += "<node><instance_node url=\"#n\"/></node>";
@@ -107,7 +107,7 @@ TEST(Unused, CamerasAfterTheFirstAreNotRead)
                                    "camera but the first");
 }
 
-/// A file that programs in use might have written: one of those that the fuzzer starts from.
+/// A file like those that common programs write: one of those that the fuzzer starts from.
 scenes::Scene real_file(const std::string& name)
 {
     return scenes::read_scene(std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "tests/fuzz/corpus" / name);

@@ -22,7 +22,7 @@ RC_GTEST_PROP(Crossings, SimplePolygonsHaveNone, ())
     RC_ASSERT(!cross({transport_test::any_simple_ring(30)}));
 }
 
-// Where two edges have a point in common that is a corner of neither, and are not in line, they cross.
+// Two edges that are not in line cross if they have a point in common that is a corner of neither.
 RC_GTEST_PROP(Crossings, AreSeenWhereverTheyAre, ())
 {
     std::vector<WholePoint> ring;

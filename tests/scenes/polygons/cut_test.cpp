@@ -20,7 +20,7 @@ std::optional<std::vector<PointTriangle>> cut(const Shape& shape)
                                          transport_test::rings_of(shape));
 }
 
-/// What is wrong with the triangles of a polygon; empty if nothing is. Without rounding.
+/// The fault of the triangles of a polygon; empty if there is none. Computed without rounding.
 std::string faults(const Shape& shape, const std::optional<std::vector<PointTriangle>>& triangles)
 {
     if (!triangles) return "not cut";
@@ -41,14 +41,14 @@ std::string faults(const Shape& shape, const std::optional<std::vector<PointTria
     return "";
 }
 
-/// Whether places drawn at random are in one triangle if they are in the polygon, and in none if not.
-/// They are thirds of whole numbers, and those on an edge count for nothing.
+/// Whether random points are in exactly one triangle if they are in the polygon, and otherwise in none.
+/// Their coordinates are thirds of whole numbers; points on an edge are left out.
 bool covers_once(const Shape& shape, const std::vector<PointTriangle>& triangles)
 {
     const std::vector<WholePoint> corners = transport_test::all_corners(shape);
     const auto tripled = [&](std::uint32_t i) { return WholePoint{3 * corners[i].x, 3 * corners[i].y}; };
     for (int i = 0; i < 20; ++i) {
-        // Near the corners there is most to see.
+        // Near the corners, where mistakes are most likely.
         const auto near =
             static_cast<std::uint32_t>(*rc::gen::inRange(0, static_cast<int>(corners.size())));
         const WholePoint p{tripled(near).x + *rc::gen::inRange(-40, 40),
@@ -85,7 +85,7 @@ RC_GTEST_PROP(CutPolygon, WithHolesItIsTheSame, ())
     RC_ASSERT(covers_once(shape, *triangles));
 }
 
-// A corner given twice or more, a spike: of no area, and so are their triangles.
+// Corners given twice or more, and spikes, have no area, and neither have their triangles.
 RC_GTEST_PROP(CutPolygon, RepeatedCornersAndSpikesDoNoHarm, ())
 {
     Shape shape = {transport_test::any_simple_ring(15)};
@@ -100,7 +100,7 @@ RC_GTEST_PROP(CutPolygon, RepeatedCornersAndSpikesDoNoHarm, ())
         if (*rc::gen::arbitrary<bool>())
             ring.insert(place, corner);
         else if ((corner.x + next.x) % 2 == 0 &&
-                 (corner.y + next.y) % 2 == 0) // half the edge, there and back
+                 (corner.y + next.y) % 2 == 0) // half of the edge and back
             ring.insert(place, {{(corner.x + next.x) / 2, (corner.y + next.y) / 2}, corner});
     }
     RC_LOG(transport_test::text_of(shape));
@@ -131,7 +131,7 @@ TEST(CutPolygon, StarsSpiralsAndCombs)
         for (const Shape& shape : {Shape{transport_test::star(n)}, Shape{transport_test::spiral(n)},
                                    Shape{transport_test::comb(n)}}) {
             ASSERT_TRUE(n > 20 || transport_test::is_simple(shape[0])) << n;
-            Shape turned = shape; // any corner may be the first
+            Shape turned = shape; // with any corner as the first
             for (std::size_t i = 0; i<shape[0].size(); i += n> 20 ? 97 : 1) {
                 std::rotate(turned[0].begin(), turned[0].begin() + 1, turned[0].end());
                 EXPECT_EQ(faults(turned, cut(turned)), "");

@@ -50,8 +50,8 @@ TEST(CutEars, AConvexPolygonIsNotCutIntoAFan)
               2 * 6); // halved six times, with two triangles each
 }
 
-// Both sides of a spike are outside, or both inside. Where spikes are left for later, the wrong side of
-// one may be taken for an ear.
+// Both sides of a spike are outside, or both inside. If a spike is not removed first, the wrong side of
+// it may be mistaken for an ear.
 TEST(CutEars, SpikesGoFirst)
 {
     const Shape shape = {{{0, 1}, {1, 0}, {0, 1}, {0, 0}, {1, 0}, {1, 1}, {1, 0}, {1, 1}}};
@@ -61,8 +61,8 @@ TEST(CutEars, SpikesGoFirst)
     EXPECT_EQ(area_of(shape, *triangles), 2);
 }
 
-// The outline comes back to its first corner from inside: cut off there, the ear would take the way back
-// with it.
+// The outline returns to its first corner from inside. If the ear is cut off there, it includes the way
+// back.
 TEST(CutEars, ACornerThatIsVisitedTwice)
 {
     const Shape shape = {{{1, 2}, {1, 1}, {3, 0}, {3, 3}, {2, 1}, {1, 2}, {0, 2}, {0, 0}}};

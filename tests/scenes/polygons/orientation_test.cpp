@@ -15,7 +15,7 @@ using scenes::polygons::is_in_wedge;
 using scenes::polygons::orientation;
 using scenes::polygons::Point;
 
-/// A number with up to 53 digits before and after the binary point, by whole numbers.
+/// A number with up to 53 digits before and after the binary point, stored as whole numbers.
 struct Exact {
     std::int64_t digits;
     int exponent; // 0 or more
@@ -55,8 +55,8 @@ RC_GTEST_PROP(Orientation, IsThatOfWholeNumbersOfAnySize, ())
     RC_ASSERT(orientation(a.as_point(), b.as_point(), c.as_point()) == exactly(a, b, c));
 }
 
-// Points in line, one of them moved by the last of its digits or not at all: doubles alone do not see
-// it.
+// Points in line; one of them is moved by its last digit or not at all. Doubles alone cannot tell these
+// cases apart.
 RC_GTEST_PROP(Orientation, SeesTheLastDigit, ())
 {
     const std::int64_t most = 1LL << 45;
@@ -80,8 +80,8 @@ RC_GTEST_PROP(Orientation, SeesTheLastDigit, ())
 }
 
 // The example of L. Kettner et al., "Classroom Examples of Robustness Problems in Geometric
-// Computations" (2008): differences of coordinates of different size are rounded, and the determinant
-// gets a sign that is wrong.
+// Computations" (2008): differences of coordinates of different size are rounded, and in doubles the
+// determinant gets the wrong sign.
 TEST(Orientation, IsRightWhereDifferencesAreRounded)
 {
     const ExactPoint q{{12, 53}, {12, 53}};

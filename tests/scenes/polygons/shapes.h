@@ -1,6 +1,6 @@
 #pragma once
 
-// Polygons with corners at whole numbers, of which everything can be checked without rounding.
+// Polygons with corners at whole numbers, so that everything can be checked without rounding.
 
 #include "scenes/polygons/cut.h"
 
@@ -44,7 +44,7 @@ inline std::int64_t twice_area(const std::vector<WholePoint>& ring)
     return area;
 }
 
-/// Outline minus holes, whichever way they turn.
+/// Twice the area of the outline minus the holes, which may turn in either direction.
 inline std::int64_t twice_area(const Shape& shape)
 {
     std::int64_t area = twice_area(shape[0]);
@@ -96,7 +96,7 @@ inline bool meet(const WholePoint& a, const WholePoint& b, const WholePoint& c, 
            (cdb == 0 && on(c, d, b));
 }
 
-/// Whether no two edges have a point in common but neighbours their corner: what the books call simple.
+/// Whether the polygon is simple: only neighbouring edges have a point in common, their corner.
 inline bool is_simple(const std::vector<WholePoint>& ring)
 {
     const std::size_t n = ring.size();
@@ -111,7 +111,7 @@ inline bool is_simple(const std::vector<WholePoint>& ring)
     return true;
 }
 
-/// By the even-odd rule, for a point that is on no edge. Coordinates are tripled to make room for it.
+/// Whether a point that is on no edge is inside, by the even-odd rule. The point is given times three.
 inline bool is_inside(const Shape& shape, const WholePoint& tripled)
 {
     bool inside = false;
@@ -126,8 +126,8 @@ inline bool is_inside(const Shape& shape, const WholePoint& tripled)
     return inside;
 }
 
-/// A polygon through points drawn from a grid of `width` x `width`, made simple by turning around the
-/// part between two edges that meet, for as long as there are some; empty if that did not succeed.
+/// A polygon through points drawn from a grid of `width` x `width`. It is made simple by reversing the
+/// part between two edges that meet, as long as there are such edges; empty if that does not succeed.
 inline std::vector<WholePoint> random_simple_ring(int corners, int width)
 {
     std::vector<WholePoint> ring;
@@ -148,8 +148,8 @@ inline std::vector<WholePoint> random_simple_ring(int corners, int width)
     return {};
 }
 
-/// Some simple polygon of three corners or more, any corner first; corners on a coarse grid often lie in
-/// line with others.
+/// A random simple polygon of three corners or more that begins with any corner. On a coarse grid
+/// corners are often in line with others.
 inline std::vector<WholePoint> any_simple_ring(int most_corners)
 {
     const int corners = *rc::gen::inRange(3, most_corners + 1);
@@ -161,7 +161,7 @@ inline std::vector<WholePoint> any_simple_ring(int most_corners)
     return ring;
 }
 
-/// The same with up to `most_holes` holes in it, of which none touches another ring or is in a hole.
+/// The same with up to `most_holes` holes. No hole touches another ring or lies in another hole.
 inline Shape any_shape_with_holes(int most_corners, int most_holes)
 {
     Shape shape = {any_simple_ring(most_corners)};
@@ -192,7 +192,7 @@ inline Shape any_shape_with_holes(int most_corners, int most_holes)
     return shape;
 }
 
-/// As a failing test shows it.
+/// The text in which a failing test shows the shape.
 inline std::string text_of(const Shape& shape)
 {
     std::string text;

@@ -38,7 +38,7 @@ Result triangulate(const Shape& shape, const std::vector<Vec3>& positions)
     return result;
 }
 
-/// The plane of whole numbers, put into space without rounding.
+/// The plane of whole numbers, mapped into space without rounding.
 struct Plane {
     Vec3 origin, u, v;
     [[nodiscard]] std::vector<Vec3> positions(const Shape& shape) const
@@ -96,7 +96,7 @@ RC_GTEST_PROP(Triangulate, ItFacesTheOtherWayWhenItsCornersAreReversed, ())
         RC_ASSERT(glm::dot(area_vector(triangle), plane.normal()) <= 0);
 }
 
-// From the smallest numbers to the largest: products of coordinates would overflow, or vanish.
+// From the smallest numbers to the largest: without scaling, products would overflow or underflow.
 RC_GTEST_PROP(Triangulate, TheSizeMakesNoDifference, ())
 {
     const Shape shape = {transport_test::any_simple_ring(12)};
@@ -132,7 +132,7 @@ RC_GTEST_PROP(Triangulate, AWarpedPolygonIsCutAsItsProjection, ())
     for (std::size_t i = 1; i + 1 < positions.size(); ++i)
         sum += area_vector({positions[0], positions[i], positions[i + 1]});
     const Result result = triangulate(shape, positions);
-    // Heights tilt the mean plane, and the projection on that may cross itself.
+    // Heights tilt the mean plane, and the projection onto it may cross itself.
     RC_PRE(result.faults.crossed == 0U);
     RC_ASSERT(result.triangles.size() == positions.size() - 2);
     const double rounding = 1e-14 * size * size; // some 50 roundings
@@ -153,7 +153,7 @@ TEST(Triangulate, AWarpedConcavePolygonIsCutWithoutLeavingIt)
     EXPECT_EQ(result.faults.non_planar, 1);
     EXPECT_EQ(result.faults.crossed, 0);
     ASSERT_EQ(result.triangles.size(), 2);
-    for (const Corners& triangle : result.triangles) // both have the corner at which it is concave
+    for (const Corners& triangle : result.triangles) // both contain the concave corner
         EXPECT_EQ(std::count(triangle.begin(), triangle.end(), Vec3(1, 1, 0)), 1);
 }
 
@@ -168,7 +168,7 @@ TEST(Triangulate, APolygonOfNoAreaIsAFanOfTrianglesOfNoArea)
     EXPECT_EQ(point.faults.zero_area, 2);
     const Result origin = triangulate(line, std::vector<Vec3>(4, Vec3(0.0)));
     EXPECT_EQ(origin.faults.zero_area, 2);
-    // Not in line to the last digit, but no digit more: a tenth has no double.
+    // In line only up to rounding, since a tenth is not a double.
     const Result tenths =
         triangulate(line, {{0.1, 0.2, 0.3}, {0.2, 0.4, 0.6}, {0.3, 0.6, 0.9}, {0.7, 1.4, 2.1}});
     EXPECT_EQ(tenths.triangles.size(), 2);
@@ -177,7 +177,7 @@ TEST(Triangulate, APolygonOfNoAreaIsAFanOfTrianglesOfNoArea)
 
 TEST(Triangulate, ABowTieIsReportedAndCutAsAFan)
 {
-    for (const std::int64_t top : {4, 3}) { // of no area in sum; of some
+    for (const std::int64_t top : {4, 3}) { // areas that sum to zero, and areas that do not
         const Shape bow_tie = {{{0, 0}, {4, 4}, {4, 0}, {0, top}}};
         const std::vector<Vec3> positions =
             Plane{Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)}.positions(bow_tie);
