@@ -1,5 +1,7 @@
 #include "golden/compare.h"
 
+#include "golden/false_alarm.h"
+#include "golden/judge.h"
 #include "golden/reason.h"
 #include "golden/verdict.h"
 

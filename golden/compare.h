@@ -3,9 +3,11 @@
 // Is this picture right? A candidate is judged against a golden, with a known chance of a false alarm,
 // and says what it could have seen. docs/comparison.md explains each step.
 
+#include "golden/compare_options.h"
 #include "golden/finding.h"
 #include "golden/functionals.h"
 #include "golden/golden.h"
+#include "golden/method.h"
 #include "golden/odd_pixels.h"
 #include "images/film.h"
 

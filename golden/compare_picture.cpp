@@ -1,6 +1,7 @@
 // A single picture of unknown noise.
 
 #include "golden/compare.h"
+#include "golden/judge.h"
 #include "golden/reason.h"
 #include "golden/verdict.h"
 

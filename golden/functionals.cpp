@@ -342,4 +342,16 @@ double Functionals::pixel_weight(std::size_t functional, std::size_t channel, st
     return weight == Weight::matched ? scale * matched_[pixel][static_cast<int>(channel)] : scale;
 }
 
+std::vector<double> values_of(const std::vector<Row>& rows, const Functionals& functionals,
+                              std::size_t functional, std::size_t channel)
+{
+    const double expected = functionals.expected(functional, channel);
+    const double spread = functionals.spread(functional, channel);
+    const std::size_t at = channel * functionals.size() + functional;
+    std::vector<double> values;
+    values.reserve(rows.size());
+    for (const Row& row : rows) values.push_back(expected + spread * static_cast<double>(row[at]));
+    return values;
+}
+
 } // namespace golden

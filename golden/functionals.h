@@ -141,4 +141,8 @@ private:
     std::array<std::vector<Standard>, 3> standards_;
 };
 
+/// One functional of several batches, in its own units.
+std::vector<double> values_of(const std::vector<Row>& rows, const Functionals& functionals,
+                              std::size_t functional, std::size_t channel);
+
 } // namespace golden

@@ -1,7 +1,7 @@
 // When one stage is enough for a verdict.
 
+#include "golden/judge.h"
 #include "golden/verdict.h"
-
 #include "tests/golden/simulated_golden.h"
 
 #include <gtest/gtest.h>
