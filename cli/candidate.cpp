@@ -2,6 +2,7 @@
 
 #include "cli/render_options.h"
 #include "cli/scene_candidate.h"
+#include "golden/compare.h"
 #include "golden/independence.h"
 #include "golden/reason.h"
 #include "images/file_ending.h"

@@ -2,8 +2,10 @@
 
 // What `plumbline compare` is given, made comparable with a golden.
 
-#include "golden/compare.h"
+#include "golden/comparison.h"
+#include "golden/golden.h"
 #include "images/exr.h"
+#include "images/image.h"
 
 #include <cstdint>
 #include <optional>

@@ -5,6 +5,7 @@
 #include "cli/interrupt.h"
 #include "cli/output_files.h"
 #include "cli/scene_input.h"
+#include "golden/golden.h"
 #include "golden/reason.h"
 #include "golden/report.h"
 #include "images/atomic_file.h"

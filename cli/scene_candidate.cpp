@@ -4,6 +4,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/renderer.h"
+#include "golden/compare.h"
 
 #include <cmath>
 #include <optional>

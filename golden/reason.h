@@ -2,7 +2,10 @@
 
 // The sentences that give a verdict's reason.
 
-#include "golden/compare.h"
+#include "golden/comparison.h"
+#include "golden/golden.h"
+#include "images/exr.h"
+#include "images/image.h"
 
 #include <string>
 

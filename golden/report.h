@@ -2,8 +2,10 @@
 
 // A comparison as numbers for machines and as a page for people.
 
-#include "golden/compare.h"
+#include "golden/comparison.h"
+#include "golden/golden.h"
 #include "images/exr.h"
+#include "images/image.h"
 
 #include <filesystem>
 #include <string>

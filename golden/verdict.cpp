@@ -48,19 +48,6 @@ std::optional<std::size_t> blindest_channel(const Comparison& comparison)
 
 } // namespace
 
-std::string describe(Verdict verdict)
-{
-    switch (verdict) {
-    case Verdict::pass:
-        return "PASS";
-    case Verdict::fail:
-        return "FAIL";
-    case Verdict::inconclusive:
-        return "INCONCLUSIVE";
-    }
-    return "";
-}
-
 void summarise(Comparison& comparison)
 {
     const std::vector<Finding>& findings = comparison.findings;

@@ -2,7 +2,9 @@
 
 // From findings to a verdict.
 
-#include "golden/compare.h"
+#include "golden/compare_options.h"
+#include "golden/comparison.h"
+#include "golden/golden.h"
 
 #include <string>
 
