@@ -89,9 +89,10 @@ Comparison first_stage(const Golden& golden, const Candidate& candidate, Method 
                            : comparison.batch_size > 0.0
                                ? comparison.candidate_batches / comparison.batch_size
                                : 0.0;
-    comparison.odd = odd_pixels(golden, candidate.film().mean(), batches, options.dark);
-    comparison.stages.push_back({candidate.batches(), comparison.p, options.accuse});
-    comparison.false_alarm = options.convict + options.dark; // unless further stages are planned
+    comparison.odd = odd_pixels(golden, candidate.film().mean(), batches, options.dark_level);
+    comparison.stages.push_back({candidate.batches(), comparison.p, options.suspicion_level});
+    comparison.false_alarm =
+        options.certainty_level + options.dark_level; // unless further stages are planned
     return comparison;
 }
 
@@ -125,7 +126,7 @@ Comparison compare(const Golden& golden, const Candidate& candidate, Method meth
     if (decide_at_once(comparison, options)) return comparison;
     comparison.verdict = Verdict::inconclusive;
     give_reason(comparison, "Suspicious: " + say_suspicion(comparison) + ". One right picture in " +
-                                say(1.0 / options.accuse, 3) +
+                                say(1.0 / options.suspicion_level, 3) +
                                 " looks so: a fresh render must confirm or clear it.");
     return comparison;
 }
@@ -151,7 +152,7 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
     render(0, options.stages[0], first);
     Comparison comparison = first_stage(golden, first, method, options);
     comparison.false_alarm =
-        options.dark +
+        options.dark_level +
         false_alarm_bound(golden.functionals, method, golden.reference.size(), options.stages, options);
     if (decide_at_once(comparison, options, options.stages.size() > 1)) return comparison;
 
@@ -162,11 +163,11 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
         render(stage, options.stages[stage], fresh);
         const Finding again = judge.judge(fresh.rows(), suspicion.functional, suspicion.channel);
         const double p = again.conclusive ? one_sided(again.test, suspicion.test.z) : 1.0;
-        comparison.stages.push_back({fresh.batches(), p, options.confirm});
-        if (p >= options.confirm) {
-            acquit(comparison, options,
-                   " (" + say_suspicion(comparison) +
-                       "; a fresh render did not confirm it, p = " + say(p, 2) + ".)");
+        comparison.stages.push_back({fresh.batches(), p, options.confirmation_level});
+        if (p >= options.confirmation_level) {
+            pass_or_inconclusive(comparison, options,
+                                 " (" + say_suspicion(comparison) +
+                                     "; a fresh render did not confirm it, p = " + say(p, 2) + ".)");
             return comparison;
         }
     }
@@ -174,7 +175,7 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
         give_reason(comparison,
                     "Suspicious: " + say_suspicion(comparison) + ", and no stage to confirm it.");
     else
-        convict(comparison, "; confirmed on a fresh render, p = " + say(comparison.stages.back().p, 2));
+        fail(comparison, "; confirmed on a fresh render, p = " + say(comparison.stages.back().p, 2));
     return comparison;
 }
 

@@ -26,8 +26,8 @@ namespace golden {
 void check_comparable(const Golden& golden, const images::Metadata& candidate, Method method);
 
 /// Judges by what there is: one stage. A suspicion that no further stage can confirm or clear makes
-/// INCONCLUSIVE, unless it is beyond doubt. Method::ranks or Method::welch; the latter needs two batches
-/// at least and throws std::invalid_argument for fewer.
+/// INCONCLUSIVE, unless its p-value is below the certainty level. Method::ranks or Method::welch; the
+/// latter needs two batches at least and throws std::invalid_argument for fewer.
 Comparison compare(const Golden& golden, const Candidate& candidate, Method method,
                    const CompareOptions& options = {});
 

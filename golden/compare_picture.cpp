@@ -123,9 +123,9 @@ Comparison look_at_picture(const Golden& golden, const images::Image& picture, d
         }
     summarise(comparison);
     summarise_reach(comparison, golden, options);
-    comparison.false_alarm = options.convict + options.dark;
+    comparison.false_alarm = options.certainty_level + options.dark_level;
     comparison.stages.push_back({static_cast<std::uint64_t>(std::llround(std::max(1.0, batches))),
-                                 comparison.p, options.accuse});
+                                 comparison.p, options.suspicion_level});
     return comparison;
 }
 
@@ -149,7 +149,7 @@ Comparison compare_picture(const Golden& golden, const images::Image& picture, d
     if (!(batch_size > 0.0)) throw std::invalid_argument("the golden does not say its batch_size");
     const double batches = samples / batch_size;
     Comparison comparison = look_at_picture(golden, picture, batches, options);
-    comparison.odd = odd_pixels(golden, picture, batches, options.dark);
+    comparison.odd = odd_pixels(golden, picture, batches, options.dark_level);
     measure_noise(comparison, golden, replaced(picture, pixels_of(comparison.odd), golden.mean));
     decide(comparison, options);
     const auto bright = bright_pixels(comparison.odd);

@@ -12,7 +12,7 @@
 namespace golden {
 
 /// Upper bound of the chance that a right picture fails. `stages` are the batches of each; with one
-/// stage only a conviction at once counts. All stages are compared with the same golden, whose own error
+/// stage only the certainty level counts. All stages are compared with the same golden, whose own error
 /// they share: the bound is an integral over that error, for means that are normally distributed as
 /// those of a few dozen batches nearly are, summed over all functionals as if none knew of another.
 double false_alarm_bound(const Functionals& functionals, Method method, std::uint64_t golden_batches,

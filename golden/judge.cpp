@@ -44,7 +44,7 @@ Finding Judge::judge(const std::vector<Row>& rows, std::size_t functional, std::
         compare_means(finding, mean_estimate(candidate), reference,
                       std::abs(candidate.skewness) / std::sqrt(candidate.count));
         if (may_lack_rare_events(candidate, reference, *std::max_element(theirs.begin(), theirs.end()),
-                                 options_.convict))
+                                 options_.certainty_level))
             finding.conclusive = false;
         const bool alike = std::ranges::adjacent_find(ours, std::ranges::not_equal_to()) == ours.end();
         finding.darker_without_noise = alike && reference.variance > 0.0 && finding.test.z < 0.0;
@@ -97,7 +97,7 @@ double Judge::detectable_by_ranks(const Finding& finding, const std::vector<doub
 
 double Judge::level_of(const Finding& finding) const
 {
-    return options_.accuse / multiplicity_.of(finding.region.kind);
+    return options_.suspicion_level / multiplicity_.of(finding.region.kind);
 }
 
 void Judge::compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,

@@ -35,6 +35,11 @@ std::optional<std::size_t> sharpest_in(const std::vector<Finding>& findings, std
     return best;
 }
 
+std::string below_certainty_level(const CompareOptions& options)
+{
+    return ", below the certainty level of " + say(options.certainty_level, 3);
+}
+
 /// The channel in which least can be seen; none if the golden is black.
 std::optional<std::size_t> blindest_channel(const Comparison& comparison)
 {
@@ -103,7 +108,8 @@ void summarise_reach(Comparison& comparison, const Golden& golden, const Compare
     }
 }
 
-void acquit(Comparison& comparison, const CompareOptions& options, const std::string& remark)
+void pass_or_inconclusive(Comparison& comparison, const CompareOptions& options,
+                          const std::string& remark)
 {
     const auto channel = blindest_channel(comparison);
     const double detectable = channel ? comparison.detectable[*channel] : 0.0;
@@ -126,7 +132,7 @@ void acquit(Comparison& comparison, const CompareOptions& options, const std::st
                                     : "Both pictures are black." + remark);
 }
 
-void convict(Comparison& comparison, const std::string& how)
+void fail(Comparison& comparison, const std::string& how)
 {
     comparison.verdict = Verdict::fail;
     give_reason(comparison, say_suspicion(comparison) + how + ".");
@@ -137,21 +143,21 @@ bool decide_at_once(Comparison& comparison, const CompareOptions& options, bool 
     if (std::any_of(comparison.odd.begin(), comparison.odd.end(),
                     [](const OddPixels& odd) { return odd.wrong; })) {
         comparison.verdict = Verdict::fail;
-        give_reason(comparison, comparison.p < options.accuse
+        give_reason(comparison, comparison.p < options.suspicion_level
                                     ? "Besides, " + say_suspicion(comparison) + "."
                                     : std::string());
         return true;
     }
-    if (comparison.p >= options.accuse) {
-        acquit(comparison, options);
+    if (comparison.p >= options.suspicion_level) {
+        pass_or_inconclusive(comparison, options);
         return true;
     }
-    const auto beyond_doubt = [&](const Finding& finding) {
-        return finding.conclusive && finding.adjusted_p < options.convict &&
+    const auto certain = [&](const Finding& finding) {
+        return finding.conclusive && finding.adjusted_p < options.certainty_level &&
                !(can_render_again && finding.darker_without_noise);
     };
-    if (std::ranges::any_of(comparison.findings, beyond_doubt)) {
-        convict(comparison, ", beyond doubt");
+    if (std::ranges::any_of(comparison.findings, certain)) {
+        fail(comparison, below_certainty_level(options));
         return true;
     }
     return false;
@@ -159,18 +165,19 @@ bool decide_at_once(Comparison& comparison, const CompareOptions& options, bool 
 
 void decide_without(Comparison& comparison, const Comparison& without, const CompareOptions& options)
 {
-    comparison.false_alarm += options.convict;
+    comparison.false_alarm += options.certainty_level;
     const std::string them = bright_pixels(comparison.odd).size() == 1 ? "it" : "them";
     // Without its bright pixels a picture is darker than it was: that proves nothing. Brighter does.
-    if (without.p < options.convict && without.findings[*without.suspicion].test.z > 0.0) {
+    if (without.p < options.certainty_level && without.findings[*without.suspicion].test.z > 0.0) {
         comparison.verdict = Verdict::fail;
-        give_reason(comparison, "Without " + them + ", " + say_suspicion(without) + ", beyond doubt.");
+        give_reason(comparison, "Without " + them + ", " + say_suspicion(without) +
+                                    below_certainty_level(options) + ".");
         return;
     }
     const bool blind = std::any_of(comparison.detectable.begin(), comparison.detectable.end(),
                                    [](double error) { return std::isinf(error); });
     const bool only_they_hinder = without.verdict == Verdict::pass;
-    if (!only_they_hinder && (!blind || without.p < options.accuse)) return;
+    if (!only_they_hinder && (!blind || without.p < options.suspicion_level)) return;
     comparison.shortfall = without.shortfall;
     give_reason(comparison, "Without " + them + ": " + without.reason +
                                 " Another picture, with another seed, shows which it is: a rare bright "

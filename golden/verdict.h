@@ -19,14 +19,15 @@ void summarise_reach(Comparison& comparison, const Golden& golden, const Compare
 
 /// The verdict where nothing is found: PASS if an error of the specified size would have been,
 /// INCONCLUSIVE if not. `remark` ends the reason.
-void acquit(Comparison& comparison, const CompareOptions& options, const std::string& remark = "");
+void pass_or_inconclusive(Comparison& comparison, const CompareOptions& options,
+                          const std::string& remark = "");
 
 /// FAIL for the suspicion; `how` goes on from it.
-void convict(Comparison& comparison, const std::string& how);
+void fail(Comparison& comparison, const std::string& how);
 
 /// The verdict of the first stage if it is already certain; false if the suspicion needs another look.
 /// `can_render_again`: a fresh stage follows. Then light that all batches lack alike is not missing
-/// beyond doubt (Finding::darker_without_noise).
+/// for certain (Finding::darker_without_noise).
 bool decide_at_once(Comparison& comparison, const CompareOptions& options,
                     bool can_render_again = false);
 

@@ -59,7 +59,7 @@ TEST_P(FalseAlarm, OfASinglePictureIsRareHoweverManySamplesItHas)
             const golden::Comparison comparison =
                 golden::compare_picture(maker.golden({{"batch_size", "4"}}), film.mean(),
                                         4.0 * static_cast<double>(batches), options);
-            suspected += comparison.p < options.accuse;
+            suspected += comparison.p < options.suspicion_level;
             EXPECT_NE(comparison.verdict, golden::Verdict::fail) << comparison.reason;
         }
         // 5 of 16 have a chance of 1e-3 at 5%, and that is a bound.

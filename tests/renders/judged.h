@@ -103,9 +103,9 @@ inline bool is_long()
     return value != nullptr && std::string(value) == "1";
 }
 
-/// The first stage is what every run costs, the other is for a suspicion. Fewer than some 20 batches
-/// could not convict anyone: the ranks of so few say too little. PLUMBLINE_LONG=1 takes as many batches
-/// as it takes to see half a percent.
+/// The first stage is what every run costs, the other is for a suspicion. The ranks of fewer than some
+/// 20 batches cannot reach the levels. PLUMBLINE_LONG=1: as many batches as an error of half a percent
+/// needs.
 inline golden::CompareOptions short_options()
 {
     golden::CompareOptions options;
