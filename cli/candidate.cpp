@@ -86,7 +86,8 @@ void expect_independent_pictures(const golden::Golden& golden,
 }
 
 /// The batches of one file, as layers.
-Judged judge_batches(const golden::Golden& golden, const std::string& file, images::ExrPicture picture)
+JudgedCandidate judge_batches(const golden::Golden& golden, const std::string& file,
+                              images::ExrPicture picture)
 {
     golden::Candidate candidate(golden.functionals);
     std::vector<images::Image> batches;
@@ -112,8 +113,8 @@ Judged judge_batches(const golden::Golden& golden, const std::string& file, imag
 }
 
 /// Several pictures, `first` the first of them.
-Judged judge_pictures(const golden::Golden& golden, const std::vector<std::string>& files,
-                      images::ExrPicture first, const std::string& layer)
+JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<std::string>& files,
+                               images::ExrPicture first, const std::string& layer)
 {
     std::vector<images::Image> pictures = {first.mean};
     std::map<std::string, std::string> seeds; // and the file that has it
@@ -139,8 +140,8 @@ Judged judge_pictures(const golden::Golden& golden, const std::vector<std::strin
     return {std::move(comparison), film.mean(), std::move(first.metadata), std::move(first.layers)};
 }
 
-Judged judge_picture(const golden::Golden& golden, const std::string& file, images::ExrPicture picture,
-                     const CandidateOptions& options)
+JudgedCandidate judge_picture(const golden::Golden& golden, const std::string& file,
+                              images::ExrPicture picture, const CandidateOptions& options)
 {
     check_file(golden, file, picture.metadata, golden::Method::picture);
     // The samples that a file states are those of the whole.
@@ -160,8 +161,8 @@ Judged judge_picture(const golden::Golden& golden, const std::string& file, imag
 
 } // namespace
 
-Judged judge(const golden::Golden& golden, const std::vector<std::string>& files,
-             const CandidateOptions& options)
+JudgedCandidate judge(const golden::Golden& golden, const std::vector<std::string>& files,
+                      const CandidateOptions& options)
 {
     const bool scene = images::has_ending(files.front(), ".dae");
     if (!scene && (!options.integrator.empty() || options.seed || options.device != "ref"))
@@ -179,10 +180,11 @@ Judged judge(const golden::Golden& golden, const std::vector<std::string>& files
     const auto batches = std::count_if(first.layers.begin(), first.layers.end(), [](const auto& layer) {
         return layer.first.starts_with(batch_prefix);
     });
-    Judged judged = files.size() > 1 ? judge_pictures(golden, files, std::move(first), options.layer)
-                    : batches > 1 && options.layer.empty()
-                        ? judge_batches(golden, files.front(), std::move(first))
-                        : judge_picture(golden, files.front(), std::move(first), options);
+    JudgedCandidate judged = files.size() > 1
+                                 ? judge_pictures(golden, files, std::move(first), options.layer)
+                             : batches > 1 && options.layer.empty()
+                                 ? judge_batches(golden, files.front(), std::move(first))
+                                 : judge_picture(golden, files.front(), std::move(first), options);
     judged.comparison.reason +=
         golden::say_possible_causes(judged.comparison, golden, judged.metadata, judged.mean);
     return judged;

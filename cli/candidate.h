@@ -25,7 +25,7 @@ struct CandidateOptions {
     bool quiet = false;
 };
 
-struct Judged {
+struct JudgedCandidate {
     golden::Comparison comparison;
     images::Image mean;
     images::Metadata metadata;
@@ -37,8 +37,8 @@ struct Judged {
 /// noise that its number of samples lets expect. Throws images::ImageError, scenes::SceneError and
 /// std::invalid_argument, which names the file, for what cannot be read or compared, pictures that are
 /// not independent among it; Interrupted if a render was.
-Judged judge(const golden::Golden& golden, const std::vector<std::string>& files,
-             const CandidateOptions& options);
+JudgedCandidate judge(const golden::Golden& golden, const std::vector<std::string>& files,
+                      const CandidateOptions& options);
 
 /// Ctrl-C before there was anything to keep.
 struct Interrupted {};

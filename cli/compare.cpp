@@ -93,7 +93,7 @@ ExitStatus compare_command(const CompareCommand& options)
     const golden::Golden golden = golden::read_golden(options.pictures.back());
     catch_interrupts();
     const std::vector<std::string> files(options.pictures.begin(), options.pictures.end() - 1);
-    const Judged judged = judge(golden, files, options.candidate);
+    const JudgedCandidate judged = judge(golden, files, options.candidate);
     const golden::Report report{std::filesystem::path(files.front()).filename().string() + " against " +
                                     std::filesystem::path(options.pictures.back()).filename().string(),
                                 judged.comparison,

@@ -1,7 +1,7 @@
 #include "cli/render_report.h"
 
 #include "cli/resources.h"
-#include "scenes/emission.h"
+#include "scenes/is_emitter.h"
 #include "scenes/requirements.h"
 
 #include <glm/exponential.hpp>

@@ -21,8 +21,8 @@ bool same_estimator(const images::Metadata& a, const images::Metadata& b)
     return true;
 }
 
-Judged judge_scene(const golden::Golden& golden, const std::string& file,
-                   const CandidateOptions& options)
+JudgedCandidate judge_scene(const golden::Golden& golden, const std::string& file,
+                            const CandidateOptions& options)
 {
     RenderCommand command = render_of(golden, file);
     if (!options.integrator.empty()) command.integrator = options.integrator;

@@ -15,7 +15,7 @@ bool same_estimator(const images::Metadata& a, const images::Metadata& b);
 /// Renders the scene in stages as the golden was rendered, but for what the options say, and judges it.
 /// The first stage has options.samples per pixel, rounded up to whole batches, a later one 4 times as
 /// many. Throws scenes::SceneError, std::invalid_argument, Interrupted.
-Judged judge_scene(const golden::Golden& golden, const std::string& file,
-                   const CandidateOptions& options);
+JudgedCandidate judge_scene(const golden::Golden& golden, const std::string& file,
+                            const CandidateOptions& options);
 
 } // namespace cli

@@ -19,7 +19,7 @@
 
 #include "scenes/requirements.h"
 
-#include "scenes/emission.h"
+#include "scenes/is_emitter.h"
 
 #include <algorithm>
 #include <variant>

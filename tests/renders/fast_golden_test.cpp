@@ -4,7 +4,7 @@
 #include "cuda/transport/renderer.h"
 #include "scenes/requirements.h"
 #include "tests/cuda/parallel/on_device.h"
-#include "tests/renders/judged.h"
+#include "tests/renders/judged_render.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 namespace {
 
-using renders_test::Judged;
+using renders_test::JudgedRender;
 using renders_test::Plan;
 using renders_test::RenderBatch;
 
@@ -33,7 +33,8 @@ std::unique_ptr<gpu::Renderer> fast_renderer(const Plan& plan, gpu::Integrator i
                               where == Where::one_thread ? 1 : 2);
 }
 
-Judged judge(const std::string& name, gpu::Integrator integrator, Where where, golden::Method method)
+JudgedRender judge(const std::string& name, gpu::Integrator integrator, Where where,
+                   golden::Method method)
 {
     const auto make = [&](const Plan& plan) -> RenderBatch {
         std::shared_ptr<gpu::Renderer> renderer;
@@ -47,15 +48,15 @@ Judged judge(const std::string& name, gpu::Integrator integrator, Where where, g
     const std::string estimator = integrator == gpu::Integrator::bdpt   ? "bdpt"
                                   : integrator == gpu::Integrator::path ? "path"
                                                                         : "light";
-    Judged judged = renders_test::judged(name, std::function<RenderBatch(const Plan&)>(make), estimator,
-                                         method, renders_test::short_options());
+    JudgedRender judged = renders_test::judge_render(name, std::function<RenderBatch(const Plan&)>(make),
+                                                     estimator, method, renders_test::short_options());
     renders_test::print(name, "fast " + estimator, judged);
     return judged;
 }
 
 void expect_bdpt_agrees(const std::string& name, Where where)
 {
-    const Judged judged = judge(name, gpu::Integrator::bdpt, where, golden::Method::ranks);
+    const JudgedRender judged = judge(name, gpu::Integrator::bdpt, where, golden::Method::ranks);
     EXPECT_EQ(judged.comparison.verdict, golden::Verdict::pass)
         << renders_test::with_report(name, "fast_bdpt", judged);
 }
@@ -63,7 +64,7 @@ void expect_bdpt_agrees(const std::string& name, Where where)
 /// Another estimator than the golden's: where its noise is too skewed the comparison is inconclusive.
 void expect_path_does_not_disagree(const std::string& name, Where where)
 {
-    const Judged judged = judge(name, gpu::Integrator::path, where, golden::Method::welch);
+    const JudgedRender judged = judge(name, gpu::Integrator::path, where, golden::Method::welch);
     if (name == "point_in_glass") {
         // No walk from the eye meets a point, and no shadow ray bends: that light is not there for it.
         EXPECT_EQ(judged.comparison.verdict, golden::Verdict::fail);
@@ -78,7 +79,7 @@ void expect_light_does_not_disagree(const std::string& name, Where where)
     const auto needs = scenes::requirements(scenes::read_scene(renders_test::scene_of(name)));
     if (needs.bsdfs.contains(scenes::Bsdf::mirror) || needs.bsdfs.contains(scenes::Bsdf::glass))
         GTEST_SKIP() << "light that the camera sees by mirrors and glass alone makes no light image";
-    const Judged judged = judge(name, gpu::Integrator::light, where, golden::Method::welch);
+    const JudgedRender judged = judge(name, gpu::Integrator::light, where, golden::Method::welch);
     EXPECT_NE(judged.comparison.verdict, golden::Verdict::fail)
         << renders_test::with_report(name, "fast_light", judged);
 }

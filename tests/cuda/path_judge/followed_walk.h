@@ -12,7 +12,7 @@
 
 #include "cuda/parallel/vec.h"
 #include "ref/transport/subpath.h"
-#include "tests/cuda/path_judge/watched_sample.h"
+#include "tests/cuda/path_judge/walk_recorder.h"
 
 #include <stdexcept>
 #include <vector>
@@ -79,11 +79,11 @@ struct FollowedWalk {
 };
 
 /// The light walk of a sample; empty if no emitter has power.
-FollowedWalk followed_light_walk(const Setting& setting, const WatchedSample& sample,
+FollowedWalk followed_light_walk(const Setting& setting, const RecordedSample& sample,
                                  std::size_t most_vertices);
 
 /// The eye walk.
-FollowedWalk followed_eye_walk(const Setting& setting, const WatchedSample& sample);
+FollowedWalk followed_eye_walk(const Setting& setting, const RecordedSample& sample);
 
 /// Where a walk goes next: the ray, how far the floats' may be from it, and what it carries.
 struct NextStep {
@@ -97,7 +97,7 @@ struct NextStep {
 
 /// Follows `recorded` from `step` on. `bounce`: from the reference's next step and its alternatives.
 /// Appends to `walk`.
-void follow(const Setting& setting, ref::Transport carried, const WatchedSample::Walk& recorded,
+void follow(const Setting& setting, ref::Transport carried, const RecordedSample::Walk& recorded,
             std::size_t most_vertices, NextStep step, FollowedWalk& walk);
 
 /// How a walk may go on from its vertex v_n: more than one way only where a lobe is drawn within

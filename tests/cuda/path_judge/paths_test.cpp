@@ -67,7 +67,7 @@ public:
 private:
     scenes::Scene scene_;
     ref::World world_;
-    cuda_test::WatchedScene floats_;
+    cuda_test::WalkRecorder floats_;
 };
 
 /// What is left of a scene when some surfaces and lights are gone: it shrinks to those that matter.

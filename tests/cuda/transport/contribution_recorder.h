@@ -1,6 +1,7 @@
 #pragma once
 
-// A sample of the fast path, contribution by contribution.
+// Records the contributions of single samples of the fast path. For their walks as well see
+// tests/cuda/path_judge/walk_recorder.h.
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/transport/launch_samples.h"
@@ -9,18 +10,18 @@
 
 namespace cuda_test {
 
-struct Recorded {
+struct RecordedContribution {
     std::uint32_t pixel;
     int s, t;
     gpu::Rgb value;
     float weight;
-    friend bool operator==(const Recorded&, const Recorded&) = default;
+    friend bool operator==(const RecordedContribution&, const RecordedContribution&) = default;
 };
 
-/// A sink that keeps everything.
-class RecordingSink {
+/// A sink that keeps all contributions, in their order.
+class ContributionSink {
 public:
-    explicit RecordingSink(std::uint32_t pixel) : pixel_(pixel) {}
+    explicit ContributionSink(std::uint32_t pixel) : pixel_(pixel) {}
     void add(int s, int t, const gpu::Rgb& value, float weight)
     {
         all.push_back({pixel_, s, t, value, weight});
@@ -29,29 +30,29 @@ public:
     {
         all.push_back({pixel, s, 1, value, weight});
     }
-    std::vector<Recorded> all;
+    std::vector<RecordedContribution> all;
 
 private:
     std::uint32_t pixel_;
 };
 
-/// A scene in the memory of the host, for single samples.
-class Recorder {
+/// A scene in the memory of the host, of which single samples are recorded.
+class ContributionRecorder {
 public:
-    Recorder(const scenes::Scene& scene, int width, int height, bool roulette = true)
+    ContributionRecorder(const scenes::Scene& scene, int width, int height, bool roulette = true)
         : arrays_(gpu::scene_arrays(scene, roulette)),
           scene_(memory_, executor_, arrays_, gpu::camera_of(scene, arrays_.place, width, height))
     {}
     [[nodiscard]] gpu::Needs needs() const { return gpu::needs_of(arrays_); }
 
     /// By the kernel that is compiled for `needs`, which must be no less than needs().
-    [[nodiscard]] std::vector<Recorded> sample(gpu::Needs needs, gpu::Integrator integrator,
-                                               const gpu::PathOptions& options,
-                                               const gpu::SampleId& id) const
+    [[nodiscard]] std::vector<RecordedContribution> sample(gpu::Needs needs, gpu::Integrator integrator,
+                                                           const gpu::PathOptions& options,
+                                                           const gpu::SampleId& id) const
     {
         const int capacity = gpu::most_light_vertices(arrays_, options.max_edges);
         std::vector<gpu::LightVertex> kept(static_cast<std::size_t>(capacity));
-        RecordingSink sink(id.pixel);
+        ContributionSink sink(id.pixel);
         gpu::with_needs(needs, [&]<gpu::Needs known>() {
             const gpu::LightVertices vertices{kept.data(), 1, capacity};
             const auto view = scene_.view<known>();

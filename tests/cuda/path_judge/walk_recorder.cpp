@@ -1,13 +1,13 @@
-#include "tests/cuda/path_judge/watched_sample.h"
+#include "tests/cuda/path_judge/walk_recorder.h"
 
 namespace cuda_test {
 
-WatchedSample WatchedScene::sample(gpu::Integrator integrator, const gpu::PathOptions& options,
-                                   const gpu::SampleId& id) const
+RecordedSample WalkRecorder::sample(gpu::Integrator integrator, const gpu::PathOptions& options,
+                                    const gpu::SampleId& id) const
 {
     using enum gpu::Integrator;
-    WatchedSample result;
-    const WatchingSink sink{result, id.pixel};
+    RecordedSample result;
+    const WalkRecordingSink sink{result, id.pixel};
     // What is there before a sample must not matter: it is nothing that any scene has.
     const int capacity = integrator == bdpt ? gpu::most_light_vertices(arrays_, options.max_edges) : 0;
     const float nan = std::numeric_limits<float>::quiet_NaN();

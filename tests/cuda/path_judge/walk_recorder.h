@@ -1,6 +1,7 @@
 #pragma once
 
-// A sample of the fast path with all that it did on the way.
+// Records single samples of the fast path with their walks: every vertex, and what each strategy
+// contributed. tests/cuda/transport/contribution_recorder.h records the contributions alone.
 
 #include "cuda/parallel/executor.h"
 #include "cuda/transport/launch_samples.h"
@@ -13,7 +14,7 @@
 namespace cuda_test {
 
 /// What one sample contributed and how its walks went.
-struct WatchedSample {
+struct RecordedSample {
     struct Found {
         std::uint32_t pixel;
         gpu::Rgb value;
@@ -29,9 +30,9 @@ struct WatchedSample {
     bool found_twice = false;                   // the same (s, t)
 };
 
-/// The sink that keeps it.
-struct WatchingSink {
-    WatchedSample& sample;
+/// A sink that writes a RecordedSample.
+struct WalkRecordingSink {
+    RecordedSample& sample;
     std::uint32_t pixel;
 
     void add(int s, int t, const gpu::Rgb& value, float weight) const
@@ -50,23 +51,23 @@ struct WatchingSink {
     void misses(gpu::Transport carried, const gpu::Leg& leg) const { walk(carried).missed = leg; }
 
 private:
-    void keep(int s, int t, const WatchedSample::Found& found) const
+    void keep(int s, int t, const RecordedSample::Found& found) const
     {
         const bool first = sample.found.emplace(std::pair(s, t), found).second;
         sample.found_twice = sample.found_twice || !first;
     }
-    [[nodiscard]] WatchedSample::Walk& walk(gpu::Transport carried) const
+    [[nodiscard]] RecordedSample::Walk& walk(gpu::Transport carried) const
     {
         return carried == gpu::Transport::power ? sample.light : sample.eye;
     }
 };
-static_assert(gpu::WatchesWalks<WatchingSink>);
+static_assert(gpu::WatchesWalks<WalkRecordingSink>);
 static_assert(!gpu::WatchesWalks<gpu::FilmSink>);
 
-/// A scene in the memory of the host, ready for single samples.
-class WatchedScene {
+/// A scene in the memory of the host, of which single samples are recorded.
+class WalkRecorder {
 public:
-    WatchedScene(const scenes::Scene& scene, int width, int height, bool roulette)
+    WalkRecorder(const scenes::Scene& scene, int width, int height, bool roulette)
         : arrays_(gpu::scene_arrays(scene, roulette)),
           scene_(memory_, executor_, arrays_, gpu::camera_of(scene, arrays_.place, width, height))
     {}
@@ -78,8 +79,8 @@ public:
                    ? std::min(max_edges, gpu::most_light_vertices(arrays_, max_edges) + 1)
                    : max_edges;
     }
-    [[nodiscard]] WatchedSample sample(gpu::Integrator integrator, const gpu::PathOptions& options,
-                                       const gpu::SampleId& id) const;
+    [[nodiscard]] RecordedSample sample(gpu::Integrator integrator, const gpu::PathOptions& options,
+                                        const gpu::SampleId& id) const;
 
 private:
     gpu::HostMemory memory_;

@@ -1,4 +1,4 @@
-#include "scenes/emission.h"
+#include "scenes/is_emitter.h"
 
 #include <glm/geometric.hpp>
 

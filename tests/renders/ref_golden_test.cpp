@@ -6,7 +6,7 @@
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
-#include "tests/renders/judged.h"
+#include "tests/renders/judged_render.h"
 
 #include <gtest/gtest.h>
 
@@ -19,16 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 using renders_test::golden_of;
-using renders_test::Judged;
+using renders_test::JudgedRender;
 using renders_test::scenes_with_goldens;
 using renders_test::source;
 using renders_test::with_report;
 
-Judged judge(const std::string& name, const char* estimator, ref::Integrator integrator,
-             golden::Method method)
+JudgedRender judge(const std::string& name, const char* estimator, ref::Integrator integrator,
+                   golden::Method method)
 {
-    Judged judged =
-        renders_test::judged(name, integrator, estimator, method, renders_test::short_options());
+    JudgedRender judged =
+        renders_test::judge_render(name, integrator, estimator, method, renders_test::short_options());
     renders_test::print(name, estimator, judged);
     return judged;
 }
@@ -37,7 +37,8 @@ class Golden : public testing::TestWithParam<std::string> {};
 
 TEST_P(Golden, BidirectionalPathTracingAgrees)
 {
-    const Judged judged = judge(GetParam(), "bdpt", ref::trace_bidirectionally, golden::Method::ranks);
+    const JudgedRender judged =
+        judge(GetParam(), "bdpt", ref::trace_bidirectionally, golden::Method::ranks);
     EXPECT_EQ(judged.comparison.verdict, golden::Verdict::pass)
         << with_report(GetParam(), "bdpt", judged);
 }
@@ -46,7 +47,7 @@ TEST_P(Golden, BidirectionalPathTracingAgrees)
 /// is too skewed for that the comparison is inconclusive, which is no failure, and no proof either.
 TEST_P(Golden, PathTracingDoesNotDisagree)
 {
-    const Judged judged = judge(GetParam(), "path", ref::trace_path, golden::Method::welch);
+    const JudgedRender judged = judge(GetParam(), "path", ref::trace_path, golden::Method::welch);
     if (GetParam() == "point_in_glass") {
         // No walk from the eye meets a point, and no shadow ray bends: that light is not there for it.
         EXPECT_EQ(judged.comparison.verdict, golden::Verdict::fail);

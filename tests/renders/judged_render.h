@@ -32,7 +32,7 @@ inline std::filesystem::path scene_of(const std::string& name)
     return source / "scenes" / (name + ".dae");
 }
 
-struct Judged {
+struct JudgedRender {
     golden::Golden golden;
     golden::Comparison comparison;
     images::Image mean; // of the last stage
@@ -52,12 +52,12 @@ using RenderBatch = std::function<images::Image(std::uint64_t seed, std::uint64_
 
 /// Renders with random numbers that nobody used before, by what `make_renderer` makes of the plan. The
 /// integrator calls itself `calls_itself` in the metadata.
-inline Judged judged(const std::string& name,
-                     const std::function<RenderBatch(const Plan&)>& make_renderer,
-                     const std::string& calls_itself, golden::Method method,
-                     const golden::CompareOptions& options)
+inline JudgedRender judge_render(const std::string& name,
+                                 const std::function<RenderBatch(const Plan&)>& make_renderer,
+                                 const std::string& calls_itself, golden::Method method,
+                                 const golden::CompareOptions& options)
 {
-    Judged result{golden::read_golden(golden_of(name)), {}, {}, {}};
+    JudgedRender result{golden::read_golden(golden_of(name)), {}, {}, {}};
     const scenes::Scene scene = scenes::read_scene(scene_of(name));
     const std::uint64_t seed = std::random_device()();
     result.metadata = result.golden.metadata;
@@ -79,9 +79,9 @@ inline Judged judged(const std::string& name,
 }
 
 /// The same by the reference.
-inline Judged judged(const std::string& name, ref::Integrator integrator,
-                     const std::string& calls_itself, golden::Method method,
-                     const golden::CompareOptions& options)
+inline JudgedRender judge_render(const std::string& name, ref::Integrator integrator,
+                                 const std::string& calls_itself, golden::Method method,
+                                 const golden::CompareOptions& options)
 {
     const auto by_reference = [&](const Plan& plan) -> RenderBatch {
         const auto world = std::make_shared<ref::World>(plan.scene, plan.width, plan.height);
@@ -93,8 +93,8 @@ inline Judged judged(const std::string& name, ref::Integrator integrator,
             return ref::renderer(*world, integrator, render_options, 2)->render_batch(number)->mean;
         };
     };
-    return judged(name, std::function<RenderBatch(const Plan&)>(by_reference), calls_itself, method,
-                  options);
+    return judge_render(name, std::function<RenderBatch(const Plan&)>(by_reference), calls_itself,
+                        method, options);
 }
 
 inline bool is_long()
@@ -125,7 +125,7 @@ inline std::vector<std::string> scenes_with_goldens()
 }
 
 /// Says on stdout what was found.
-inline void print(const std::string& name, const std::string& estimator, const Judged& judged)
+inline void print(const std::string& name, const std::string& estimator, const JudgedRender& judged)
 {
     std::cout << name << ", " << estimator << ", seed " << judged.metadata.at("seed") << ": "
               << describe(judged.comparison.verdict) << ". " << judged.comparison.reason
@@ -134,7 +134,7 @@ inline void print(const std::string& name, const std::string& estimator, const J
 
 /// Writes the report of a failure and says where.
 inline std::string with_report(const std::string& name, const std::string& estimator,
-                               const Judged& judged)
+                               const JudgedRender& judged)
 {
     const std::filesystem::path report =
         std::filesystem::path(PLUMBLINE_REPORTS) / (name + "_" + estimator + ".html");
