@@ -6,13 +6,9 @@
 #include "ref/transport/random.h"
 #include "ref/transport/sampling.h"
 #include "ref/trees/geometry.h"
-#include "ref/trees/quality.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -30,14 +26,6 @@ double cpu_seconds_of(Function work)
     return cpu_seconds() - start;
 }
 
-/// What rays of one kind cost, on average.
-struct RayCost {
-    double mrays_per_s = 0;
-    std::optional<double> relative_standard_error{}; // of mrays_per_s; none without rays
-    double nodes_per_ray = 0;
-    double primitives_per_ray = 0;
-};
-
 RayCost measure(const ref::Geometry& geometry, const std::vector<ref::Ray>& rays)
 {
     if (rays.empty()) return {};
@@ -53,12 +41,6 @@ RayCost measure(const ref::Geometry& geometry, const std::vector<ref::Ray>& rays
     const auto count = static_cast<double>(rays.size());
     return {count / timed.seconds * 1e-6, timed.relative_standard_error,
             static_cast<double>(work.nodes) / count, static_cast<double>(work.primitives) / count};
-}
-
-/// As JSON has it: null where there is none.
-nlohmann::json json_of(const std::optional<double>& number)
-{
-    return number ? nlohmann::json(*number) : nlohmann::json();
 }
 
 struct Rays {
@@ -100,30 +82,20 @@ double median_build_ms(const std::vector<ref::Aabb>& boxes, ref::Builder builder
 
 } // namespace
 
-nlohmann::json measure_builder(const scenes::Scene& scene, const NamedBuilder& named, const Size& size,
-                               int repeats)
+MeasuredBuilder measure_builder(const scenes::Scene& scene, const NamedBuilder& named, const Size& size,
+                                int repeats)
 {
     const std::vector<ref::Aabb> boxes = ref::primitive_bounds(scene);
     const ref::Geometry geometry(scene, named.builder);
-    const ref::Quality quality = ref::quality(geometry.tree());
     const Rays rays = make_rays(geometry, size);
     const RayCost camera = measure(geometry, rays.camera);
     const RayCost diffuse = measure(geometry, rays.diffuse);
-    return {{"name", named.name},
-            {"build_ms", median_build_ms(boxes, named.builder, repeats)},
-            {"sah_cost", quality.sah_cost},
-            {"depth", quality.depth},
-            {"mean_leaf_depth", quality.mean_leaf_depth},
-            {"overlap", quality.overlap},
-            {"nodes", geometry.tree().nodes.size()},
-            {"camera_mrays_per_s", camera.mrays_per_s},
-            {"camera_relative_standard_error", json_of(camera.relative_standard_error)},
-            {"camera_nodes_per_ray", camera.nodes_per_ray},
-            {"camera_primitives_per_ray", camera.primitives_per_ray},
-            {"diffuse_mrays_per_s", diffuse.mrays_per_s},
-            {"diffuse_relative_standard_error", json_of(diffuse.relative_standard_error)},
-            {"diffuse_nodes_per_ray", diffuse.nodes_per_ray},
-            {"diffuse_primitives_per_ray", diffuse.primitives_per_ray}};
+    return {named.name,
+            median_build_ms(boxes, named.builder, repeats),
+            ref::quality(geometry.tree()),
+            geometry.tree().nodes.size(),
+            camera,
+            diffuse};
 }
 
 } // namespace cli

@@ -1,4 +1,6 @@
-#include "cli/bvh_options.h"
+// The options of `plumbline bvh`.
+
+#include "cli/bvh_command.h"
 
 #include "cli/builders.h"
 

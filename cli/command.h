@@ -1,7 +1,9 @@
 #pragma once
 
-// The pattern of a subcommand: a function that adds it to the program, with its options and the work to
-// do when it is chosen. The work returns the exit status, or throws what is wrong.
+// The pattern of a subcommand X. X_command.h declares its options, a struct, and add_X_command, which
+// adds it to the program and, when it is chosen, sets the work to do. The work returns the exit status,
+// or throws what is wrong. X_options.cpp reads the options, X_command.cpp does the work, and its parts
+// are named after it: X_report.h, for example.
 
 #include <CLI/CLI.hpp>
 
@@ -17,10 +19,7 @@ enum ExitStatus {
     interrupted = 130 // by Ctrl-C or SIGTERM, after what was done was kept; as shells say it
 };
 
-/// What the chosen subcommand does.
+/// The work of the chosen subcommand.
 using Work = std::function<ExitStatus()>;
-
-/// Each adds its subcommand to `program` and, when it is chosen, sets `work`.
-void add_render_command(CLI::App& program, Work& work);
 
 } // namespace cli

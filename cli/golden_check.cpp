@@ -1,8 +1,10 @@
-// `plumbline golden --verify` and `--list`.
+#include "cli/golden_check.h"
 
-#include "cli/golden.h"
+#include "cli/golden_mismatch.h"
+#include "cli/golden_render.h"
 #include "cli/interrupt.h"
-#include "cli/renderer.h"
+#include "cli/renderer_for.h"
+#include "cli/scene_input.h"
 #include "golden/compare.h"
 #include "scenes/read_scene.h"
 

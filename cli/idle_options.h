@@ -2,8 +2,8 @@
 
 // Options of `plumbline render` and `plumbline bvh` that were given and would change nothing.
 
-#include "cli/bvh_options.h"
-#include "cli/render_options.h"
+#include "cli/bvh_command.h"
+#include "cli/render_command.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,11 +1,12 @@
 // The program: chooses the subcommand, and turns every error into one line and an exit status.
 
-#include "cli/bvh.h"
-#include "cli/candidate.h"
+#include "cli/bvh_command.h"
 #include "cli/command.h"
-#include "cli/compare.h"
+#include "cli/compare_command.h"
 #include "cli/counts.h"
-#include "cli/golden.h"
+#include "cli/golden_command.h"
+#include "cli/interrupt.h"
+#include "cli/render_command.h"
 #include "cli/standard_output.h"
 #include "cuda/device.h"
 

@@ -1,7 +1,10 @@
-#include "cli/render_options.h"
+// The options of `plumbline render`, and which of them exclude each other.
+
+#include "cli/render_command.h"
 
 #include "cli/builders.h"
 #include "cli/output_files.h"
+#include "cli/scene_input.h"
 #include "images/whole_number.h"
 #include "images/write_image.h"
 

@@ -2,7 +2,7 @@
 
 // What `plumbline render --json` says.
 
-#include "cli/render_options.h"
+#include "cli/render_command.h"
 #include "cuda/transport/needs.h"
 #include "images/dropped.h"
 #include "images/film.h"

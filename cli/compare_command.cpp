@@ -1,7 +1,8 @@
 // `plumbline compare`: is this picture right? The answer on one screen, as JSON, or as a page.
 
-#include "cli/compare.h"
-#include "cli/candidate.h"
+#include "cli/compare_command.h"
+
+#include "cli/compare_candidate.h"
 #include "cli/interrupt.h"
 #include "cli/output_files.h"
 #include "cli/scene_input.h"
@@ -76,13 +77,6 @@ void print_screen(const golden::Comparison& comparison)
     }
 }
 
-struct CompareCommand {
-    std::vector<std::string> pictures; // candidates, then the golden
-    CandidateOptions candidate;
-    std::string report;
-    bool json = false;
-};
-
 ExitStatus compare_command(const CompareCommand& options)
 {
     expect_ending(options.report, "--report", ".html");
@@ -93,7 +87,7 @@ ExitStatus compare_command(const CompareCommand& options)
     const golden::Golden golden = golden::read_golden(options.pictures.back());
     catch_interrupts();
     const std::vector<std::string> files(options.pictures.begin(), options.pictures.end() - 1);
-    const JudgedCandidate judged = judge(golden, files, options.candidate);
+    const JudgedCandidate judged = judge(golden, files, options);
     const golden::Report report{std::filesystem::path(files.front()).filename().string() + " against " +
                                     std::filesystem::path(options.pictures.back()).filename().string(),
                                 judged.comparison,
@@ -115,33 +109,7 @@ void add_compare_command(CLI::App& program, Work& work)
 {
     const auto options = std::make_shared<CompareCommand>();
     CLI::App* command = program.add_subcommand("compare", "Judge a picture by a golden");
-    command
-        ->add_option("pictures", options->pictures,
-                     "The candidate, or several independent ones, and the golden")
-        ->required()
-        ->expected(2, 1 << 16);
-    command
-        ->add_option("-s,--samples", options->candidate.samples,
-                     "Samples per pixel: of one picture that does not say so, or to render")
-        ->check(CLI::Range(1.0, 1e12));
-    command->add_option("--layer", options->candidate.layer,
-                        "Of .exr files: the picture to compare, by name [their R, G and B]");
-    command
-        ->add_option("--integrator", options->candidate.integrator,
-                     "Of a scene that is rendered here: path, bdpt or light [the golden's]")
-        ->check(CLI::IsMember({"path", "bdpt", "light"}));
-    command
-        ->add_option("--device", options->candidate.device,
-                     "That renders a scene here: ref, or the fast path on host or cuda")
-        ->check(CLI::IsMember({"ref", "host", "cuda"}).description(""))
-        ->capture_default_str();
-    command->add_option("--seed", options->candidate.seed,
-                        "Of a scene that is rendered here [another one every time]");
-    command->add_option("-t,--threads", options->candidate.threads, "Threads")
-        ->check(CLI::Range(1u, 1024u));
-    command->add_option("--report", options->report, "Write a page with pictures: .html");
-    command->add_flag("--json", options->json, "Print one JSON object");
-    command->add_flag("-q,--quiet", options->candidate.quiet, "No progress");
+    add_compare_options(*command, *options);
     command->footer("A candidate is an .exr, a .pfm, or a scene, .dae, that is rendered here.\n"
                     "Exit status: 0 PASS, 1 FAIL, 3 INCONCLUSIVE, 2 bad input.\n"
                     "Example: plumbline compare mine.exr golden/renders/cornell_glass.exr -s 1024");

@@ -1,7 +1,7 @@
-#include "cli/candidate.h"
+#include "cli/compare_candidate.h"
 
-#include "cli/render_options.h"
-#include "cli/scene_candidate.h"
+#include "cli/compare_scene.h"
+#include "cli/render_metadata.h"
 #include "golden/compare.h"
 #include "golden/independence.h"
 #include "golden/reason.h"
@@ -51,7 +51,7 @@ void expect_size(const fs::path& path, const images::Image& image, const golden:
 }
 
 double samples_of(const std::string& file, const images::Metadata& metadata,
-                  const CandidateOptions& options)
+                  const CompareCommand& options)
 {
     if (options.samples) return *options.samples;
     const std::string text = value_of(metadata, "samples");
@@ -141,7 +141,7 @@ JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<s
 }
 
 JudgedCandidate judge_picture(const golden::Golden& golden, const std::string& file,
-                              images::ExrPicture picture, const CandidateOptions& options)
+                              images::ExrPicture picture, const CompareCommand& options)
 {
     check_file(golden, file, picture.metadata, golden::Method::picture);
     // The samples that a file states are those of the whole.
@@ -162,7 +162,7 @@ JudgedCandidate judge_picture(const golden::Golden& golden, const std::string& f
 } // namespace
 
 JudgedCandidate judge(const golden::Golden& golden, const std::vector<std::string>& files,
-                      const CandidateOptions& options)
+                      const CompareCommand& options)
 {
     const bool scene = images::has_ending(files.front(), ".dae");
     if (!scene && (!options.integrator.empty() || options.seed || options.device != "ref"))

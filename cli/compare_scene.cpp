@@ -1,9 +1,11 @@
-#include "cli/scene_candidate.h"
+#include "cli/compare_scene.h"
 
-#include "cli/golden.h"
+#include "cli/golden_render.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "cli/renderer.h"
+#include "cli/render_metadata.h"
+#include "cli/renderer_for.h"
+#include "cli/scene_input.h"
 #include "golden/compare.h"
 
 #include <cmath>
@@ -22,7 +24,7 @@ bool same_estimator(const images::Metadata& a, const images::Metadata& b)
 }
 
 JudgedCandidate judge_scene(const golden::Golden& golden, const std::string& file,
-                            const CandidateOptions& options)
+                            const CompareCommand& options)
 {
     RenderCommand command = render_of(golden, file);
     if (!options.integrator.empty()) command.integrator = options.integrator;

@@ -1,6 +1,7 @@
-#include "cli/renderer.h"
+#include "cli/renderer_for.h"
 
 #include "cli/builders.h"
+#include "cli/scene_input.h"
 #include "cuda/transport/float_notices.h"
 #include "cuda/transport/renderer.h"
 #include "ref/transport/render.h"

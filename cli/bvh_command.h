@@ -1,6 +1,8 @@
 #pragma once
 
-// What `plumbline bvh` can be asked for.
+// The subcommand `bvh`: its options, and the function that adds it (see command.h).
+
+#include "cli/command.h"
 
 #include <CLI/CLI.hpp>
 
@@ -30,5 +32,8 @@ void add_bvh_options(CLI::App& command, BvhCommand& options);
 /// Whether the builders of the reference are measured, with rays: not if only a picture or a figure is
 /// asked for, nor with --device.
 bool measures_builders(const BvhCommand& options);
+
+/// Adds the subcommand to `program`.
+void add_bvh_command(CLI::App& program, Work& work);
 
 } // namespace cli

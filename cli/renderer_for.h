@@ -2,9 +2,10 @@
 
 // What renders for the options of `plumbline render` and its like, on whichever device.
 
-#include "cli/render_options.h"
+#include "cli/render_command.h"
 #include "cuda/transport/needs.h"
 #include "images/renderer.h"
+#include "scenes/scene.h"
 
 #include <memory>
 #include <optional>

@@ -1,6 +1,7 @@
-// Going on from an earlier render: what must agree, and what is taken over.
+#include "cli/render_resume.h"
 
-#include "cli/render_options.h"
+#include "cli/render_metadata.h"
+#include "cli/scene_input.h"
 #include "images/exr.h"
 #include "images/file_ending.h"
 #include "images/whole_number.h"
@@ -10,31 +11,6 @@
 #include <stdexcept>
 
 namespace cli {
-
-images::Metadata describe(const RenderCommand& options, const scenes::Scene& scene)
-{
-    images::Metadata metadata = {{"scene", scene.name},
-                                 {"scene_hash", scene.hash},
-                                 {"integrator", options.integrator},
-                                 {"heuristic", options.heuristic},
-                                 {"batch_size", std::to_string(options.batch_size)},
-                                 {"max_edges", options.max_edges == images::unlimited_edges
-                                                   ? "unlimited"
-                                                   : std::to_string(options.max_edges)},
-                                 {"roulette", options.no_roulette ? "off" : "on"},
-                                 {"seed", std::to_string(options.seed)},
-                                 {"camera", options.frame ? "framed" : "of the scene"},
-                                 {"version", PLUMBLINE_VERSION}};
-    // Nothing is said of the reference, so that its files stay what they were.
-    if (options.device != "ref") metadata["device"] = options.device;
-    return metadata;
-}
-
-std::string value_of(const images::Metadata& metadata, const std::string& key)
-{
-    const auto found = metadata.find(key);
-    return found == metadata.end() ? "" : found->second;
-}
 
 images::Film starting_film(const RenderCommand& options, const images::Metadata& description,
                            images::Dropped& dropped)

@@ -2,7 +2,7 @@
 
 // A scene that `plumbline compare` renders itself.
 
-#include "cli/candidate.h"
+#include "cli/compare_candidate.h"
 #include "golden/golden.h"
 
 #include <string>
@@ -16,6 +16,6 @@ bool same_estimator(const images::Metadata& a, const images::Metadata& b);
 /// The first stage has options.samples per pixel, rounded up to whole batches, a later one 4 times as
 /// many. Throws scenes::SceneError, std::invalid_argument, Interrupted.
 JudgedCandidate judge_scene(const golden::Golden& golden, const std::string& file,
-                            const CandidateOptions& options);
+                            const CompareCommand& options);
 
 } // namespace cli

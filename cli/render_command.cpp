@@ -1,13 +1,16 @@
 // `plumbline render`: a scene file in, pictures out.
 
-#include "cli/command.h"
+#include "cli/render_command.h"
+
 #include "cli/idle_options.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "cli/render_options.h"
+#include "cli/render_metadata.h"
 #include "cli/render_report.h"
-#include "cli/renderer.h"
+#include "cli/render_resume.h"
+#include "cli/renderer_for.h"
 #include "cli/resources.h"
+#include "cli/scene_input.h"
 #include "images/exr.h"
 #include "images/file_ending.h"
 #include "images/png.h"

@@ -1,12 +1,9 @@
 #pragma once
 
-// What `plumbline render` can be asked for.
+// The subcommand `render`: its options, and the function that adds it (see command.h).
 
-#include "cli/scene_input.h"
-#include "images/dropped.h"
-#include "images/film.h"
+#include "cli/command.h"
 #include "images/render_options.h"
-#include "scenes/scene.h"
 
 #include <CLI/CLI.hpp>
 
@@ -61,19 +58,10 @@ void check(const RenderCommand& options);
 /// Throws std::invalid_argument unless `samples` per pixel are whole batches.
 void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size);
 
-/// What the metadata say of `key`; the empty string if they say nothing.
-std::string value_of(const images::Metadata& metadata, const std::string& key);
-
+/// The options as renderers take them.
 images::RenderOptions render_options(const RenderCommand& options);
 
-/// Everything that shapes the picture, and so must be the same for one render to go on from another: not
-/// the threads and not the builder of the tree, which change no bit.
-images::Metadata describe(const RenderCommand& options, const scenes::Scene& scene);
-
-/// The film to start from: that of the file to resume, or an empty one. Throws std::invalid_argument or
-/// images::ImageError if the file holds another picture than the one asked for.
-/// `dropped` becomes the number of contributions that the film lacks.
-images::Film starting_film(const RenderCommand& options, const images::Metadata& description,
-                           images::Dropped& dropped);
+/// Adds the subcommand to `program`.
+void add_render_command(CLI::App& program, Work& work);
 
 } // namespace cli
