@@ -38,24 +38,8 @@ std::string expect_seed(const std::string& text)
     return images::whole_number(text) ? "" : "expected a whole number from 0 to 2^64 - 1, not " + text;
 }
 
-/// Throws unless each file can be written and is no other file of this command.
-void check_files(const RenderCommand& options)
-{
-    expect_ending(options.strategies, "--strategies", ".exr");
-    expect_ending(options.strategies_picture, "--strategies-picture", ".png");
-    std::vector<NamedFile> files;
-    for (const std::string& path : options.outputs) files.push_back({"-o", path});
-    files.push_back({"--strategies", options.strategies});
-    files.push_back({"--strategies-picture", options.strategies_picture});
-    expect_different_files(files, {{"the scene", options.scene}});
-    for (const std::string& path : {options.strategies, options.strategies_picture})
-        if (!path.empty()) images::check_writable(path);
-    for (const std::string& path : options.outputs) images::check_writable(path);
-}
-
-} // namespace
-
-void add_render_options(CLI::App& command, RenderCommand& options)
+/// The scene, the files to write, and how many samples they hold.
+void add_picture_options(CLI::App& command, RenderCommand& options)
 {
     command.add_option("scene", options.scene, "COLLADA file; -: standard input")->required();
     command.add_option("-o,--output", options.outputs, "Picture: .exr, .pfm or .png; may be repeated")
@@ -68,6 +52,11 @@ void add_render_options(CLI::App& command, RenderCommand& options)
         .add_option("--batch", options.batch_size,
                     "Samples in a batch, unit of error and resuming [up to 4, dividing -s]")
         ->check(CLI::Range(1u, 1u << 20));
+}
+
+/// The processor that renders.
+void add_device_options(CLI::App& command, RenderCommand& options)
+{
     command
         .add_option("-t,--threads", options.threads,
                     "Threads, not for cuda; the picture does not depend on them")
@@ -80,6 +69,11 @@ void add_render_options(CLI::App& command, RenderCommand& options)
         ->capture_default_str();
     command.add_flag("--deterministic", options.deterministic,
                      "The fast path gives the same bits every time; ref always does");
+}
+
+/// The estimator, and its random numbers.
+void add_integrator_options(CLI::App& command, RenderCommand& options)
+{
     command.add_option("--integrator", options.integrator, "path, bdpt (bidirectional) or light")
         ->check(one_of({"path", "bdpt", "light"}))
         ->capture_default_str();
@@ -99,6 +93,11 @@ void add_render_options(CLI::App& command, RenderCommand& options)
     command.add_option("--seed", options.seed, "Another seed, another noise")
         ->check(expect_seed)
         ->capture_default_str();
+}
+
+/// The camera, the outputs and the messages.
+void add_output_options(CLI::App& command, RenderCommand& options)
+{
     command
         .add_option("--exposure", options.exposure, "For .png: stops that the picture is brightened by")
         ->check(CLI::Range(-64.0, 64.0))
@@ -119,6 +118,32 @@ void add_render_options(CLI::App& command, RenderCommand& options)
     command.add_flag("--json", options.json,
                      "Print one JSON object: time, samples, mean and its error, kernel");
     command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
+}
+
+/// Throws unless each file can be written and is no other file of this command.
+void check_files(const RenderCommand& options)
+{
+    expect_ending(options.strategies, "--strategies", ".exr");
+    expect_ending(options.strategies_picture, "--strategies-picture", ".png");
+    std::vector<NamedFile> files;
+    for (const std::string& path : options.outputs) files.push_back({"-o", path});
+    files.push_back({"--strategies", options.strategies});
+    files.push_back({"--strategies-picture", options.strategies_picture});
+    expect_different_files(files, {{"the scene", options.scene}});
+    for (const std::string& path : {options.strategies, options.strategies_picture})
+        if (!path.empty()) images::check_writable(path);
+    for (const std::string& path : options.outputs) images::check_writable(path);
+}
+
+} // namespace
+
+void add_render_options(CLI::App& command, RenderCommand& options)
+{
+    // In the order of the help page.
+    add_picture_options(command, options);
+    add_device_options(command, options);
+    add_integrator_options(command, options);
+    add_output_options(command, options);
 }
 
 void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size)

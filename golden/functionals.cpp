@@ -1,8 +1,9 @@
 #include "golden/functionals.h"
+
+#include "golden/rounded.h"
 #include "images/non_finite.h"
 
 #include <glm/geometric.hpp>
-#include <half.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,19 +20,6 @@ constexpr std::size_t strata = 16;
 double luminance(const images::Rgb& color)
 {
     return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b; // Rec.709
-}
-
-/// A call, so that it is done: g++ 12.2 at -O2 takes a pair of conversions double-float-double in vector
-/// registers for nothing, and drops it.
-[[gnu::noinline]] float to_float(double value)
-{
-    return static_cast<float>(value);
-}
-
-double rounded_to_half(double value)
-{
-    constexpr double largest = HALF_MAX;
-    return static_cast<double>(static_cast<float>(half(to_float(std::clamp(value, -largest, largest)))));
 }
 
 /// The variance of a batch that a pixel is given at least. A pilot of n batches that has seen nothing
@@ -58,51 +46,6 @@ std::vector<std::uint32_t> stratify(const std::vector<double>& key)
 }
 
 } // namespace
-
-std::string describe(const Region& region)
-{
-    switch (region.kind) {
-    case RegionKind::whole:
-        return "the whole picture";
-    case RegionKind::coarse_tile:
-    case RegionKind::fine_tile:
-        return "tile x " + std::to_string(region.x0) + ".." + std::to_string(region.x1 - 1) + ", y " +
-               std::to_string(region.y0) + ".." + std::to_string(region.y1 - 1);
-    case RegionKind::luminance:
-        return "luminance stratum " + std::to_string(region.index + 1) + " of 16";
-    case RegionKind::noise:
-        return "noise stratum " + std::to_string(region.index + 1) + " of 16";
-    }
-    return "";
-}
-
-std::string describe(Weight weight)
-{
-    switch (weight) {
-    case Weight::matched:
-        return "matched";
-    case Weight::plain:
-        return "plain";
-    case Weight::bounded:
-        return "bounded";
-    }
-    return "";
-}
-
-Pilot make_pilot(const images::Film& film)
-{
-    if (film.batches() < 2) throw std::invalid_argument("a pilot needs two batches at least");
-    Pilot pilot{film.mean(), images::Image(film.mean().width, film.mean().height), film.batches()};
-    for (std::size_t i = 0; i < pilot.mean.pixels.size(); ++i)
-        for (int channel = 0; channel < 3; ++channel) {
-            double& mean = pilot.mean.pixels[i][channel];
-            mean = static_cast<double>(to_float(mean));
-            const double variance =
-                film.squares().pixels[i][channel] / static_cast<double>(film.batches() - 1);
-            if (mean > 0.0) pilot.noise.pixels[i][channel] = rounded_to_half(std::sqrt(variance) / mean);
-        }
-    return pilot;
-}
 
 Functionals::Functionals(Pilot pilot) : pilot_(std::move(pilot))
 {

@@ -7,64 +7,15 @@
 // Regions and weights are chosen by looking at a pilot: some batches of the golden that are used for
 // nothing else, so that the choice cannot depend on the noise that is then judged.
 
-#include "images/film.h"
+#include "golden/pilot.h"
+#include "golden/region.h"
+#include "images/image.h"
 
 #include <array>
 #include <cstdint>
-#include <span>
-#include <string>
 #include <vector>
 
 namespace golden {
-
-inline constexpr std::size_t channel_count = 3;
-inline constexpr std::array<const char*, channel_count> channel_names = {"red", "green", "blue"};
-
-enum class RegionKind {
-    whole,
-    coarse_tile, // a square of a quarter of the longer side
-    fine_tile,   // a square of an eighth of the longer side: 16x16 pixels of 128x128
-    luminance,   // a stratum: a sixteenth of the pixels, from the darkest to the brightest
-    noise        // a stratum: a sixteenth of the pixels, by relative variance v / m^2
-};
-
-struct Region {
-    RegionKind kind;
-    int index;          // within its kind: row by row, or from the lowest stratum
-    int x0, y0, x1, y1; // x0 <= x < x1, y0 <= y < y1; for a stratum what bounds the whole picture
-    std::size_t pixels;
-};
-
-/// In words: "the whole picture", "tile 32..47, 0..15", "luminance stratum 3 of 16".
-std::string describe(const Region& region);
-
-/// How the pixels of a region are weighed, with m and v the pilot's mean and variance of a batch.
-enum class Weight {
-    matched, // m / v: the best linear way to see a relative error, it listens where the noise is low
-    plain,   // 1: sees an error of few bright pixels that the first would discount
-    bounded  // the mean of c / (c + m): no single sample can move it far, however bright
-};
-inline constexpr std::array weights = {Weight::matched, Weight::plain, Weight::bounded};
-
-std::string describe(Weight weight);
-
-constexpr bool is_linear(Weight weight)
-{
-    return weight != Weight::bounded;
-}
-
-/// Per pixel and channel, the mean of the pilot's batches and their noise sqrt(v) / m, the relative
-/// standard deviation of one batch (0 where m is not positive). What a golden stores of its pilot.
-struct Pilot {
-    images::Image mean;
-    images::Image noise;
-    std::uint64_t batches = 0;
-};
-
-/// The pilot that a film of at least two batches makes, noise rounded to half precision, mean to single:
-/// as a file holds them, so that a golden that was read and one that was made are the same. Throws
-/// std::invalid_argument for fewer batches.
-Pilot make_pilot(const images::Film& film);
 
 /// One region seen through one weight.
 struct Functional {

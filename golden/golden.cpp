@@ -1,5 +1,6 @@
 #include "golden/golden.h"
 
+#include "golden/rounded.h"
 #include "images/image_error.h"
 #include "images/non_finite.h"
 #include "images/whole_number.h"
@@ -23,18 +24,11 @@ constexpr const char* pilot_batches_key = "golden.pilot_batches";
 constexpr const char* reference_batches_key = "golden.reference_batches";
 constexpr const char* functionals_key = "golden.functionals";
 
-/// As a file holds it. A call, so that it is done: g++ 12.2 at -O2 drops a pair of conversions
-/// double-float-double in vector registers.
-[[gnu::noinline]] float single(double value)
-{
-    return static_cast<float>(value);
-}
-
 images::Image in_single_precision(images::Image image)
 {
     for (images::Rgb& pixel : image.pixels)
         for (int channel = 0; channel < 3; ++channel)
-            pixel[channel] = static_cast<double>(single(pixel[channel]));
+            pixel[channel] = static_cast<double>(to_float(pixel[channel]));
     return image;
 }
 
