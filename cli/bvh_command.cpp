@@ -27,7 +27,7 @@ namespace cli {
 
 namespace {
 
-/// The builder that was named, or all.
+/// The builder of --builder, or all.
 std::vector<NamedBuilder> chosen(const BvhCommand& options)
 {
     std::vector<NamedBuilder> result;

@@ -17,7 +17,7 @@ namespace cli {
 namespace {
 
 /// CPU time of `work` in seconds. Everything here runs on one thread, so on an idle machine this is the
-/// time that passes; on a busy one it is what the work itself costs.
+/// elapsed time; on a busy one it excludes the time of other processes.
 template <typename Function>
 double cpu_seconds_of(Function work)
 {
@@ -37,7 +37,8 @@ RayCost measure(const ref::Geometry& geometry, const std::vector<ref::Ray>& rays
         for (const ref::Ray& ray : rays) hits += intersect(geometry, ray, &work) ? 1 : 0;
     });
     if (hits > rays.size())
-        throw std::logic_error("more hits than rays"); // keeps the loop from being dropped
+        throw std::logic_error(
+            "more hits than rays"); // uses the hits, so that the loop is not optimised away
     const auto count = static_cast<double>(rays.size());
     return {count / timed.seconds * 1e-6, timed.relative_standard_error,
             static_cast<double>(work.nodes) / count, static_cast<double>(work.primitives) / count};

@@ -60,11 +60,11 @@ std::size_t host_cache()
     return bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
 }
 
-/// The times of all builds, and what the trees are worth.
+/// The times of all builds, and the SAH costs of the trees.
 struct Timed {
     std::vector<Milliseconds> stages;
     double sah_cost = 0;
-    std::vector<double> clustering; // what hploc.h takes on top
+    std::vector<double> clustering; // ms, of cuda/trees/hploc.h
     double clustered_sah_cost = 0;
 };
 
@@ -98,7 +98,7 @@ std::vector<Milliseconds> time_on_device(const std::vector<gpu::Box>& boxes, int
 {
     gpu::DeviceLbvh tree(static_cast<std::uint32_t>(boxes.size()), code_bits);
     tree.build(boxes);
-    static_cast<void>(tree.download()); // rejects what is no box
+    static_cast<void>(tree.download()); // throws for an invalid box
     std::vector<Milliseconds> times(static_cast<std::size_t>(repeats));
     for (Milliseconds& stages : times) std::ranges::copy(tree.time_stages(), stages.begin());
     return times;

@@ -32,8 +32,8 @@ struct StagedBuild {
     std::vector<MeasuredStage> stages;
     double ms = 0; // of all stages
     double bytes_per_primitive = 0;
-    /// False if a stage claims to have moved more than the memory can, while its data were too large for
-    /// the caches: then some figure is wrong.
+    /// False if the bytes and the time of a stage exceed the bandwidth of the memory although its data
+    /// are too large for the caches: then some number is wrong.
     bool plausible = true;
     std::optional<MeasuredHostTrees> host_trees{};
 };
@@ -50,8 +50,8 @@ struct MeasuredStages {
 };
 
 /// Builds trees over 30 and 63 bits `repeats` times on `device`, "host" (with `threads` threads) or
-/// "cuda". Throws std::runtime_error if there is no GPU, and std::invalid_argument for a primitive that
-/// is none.
+/// "cuda". Throws std::runtime_error if there is no GPU, and std::invalid_argument for a primitive
+/// with an invalid box.
 MeasuredStages measure_stages(const scenes::Scene& scene, const std::string& device, unsigned threads,
                               int repeats);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What `plumbline compare` is given, made comparable with a golden.
+// Compares the files of `plumbline compare` with a golden.
 
 #include "cli/compare_command.h"
 #include "golden/comparison.h"
@@ -20,11 +20,12 @@ struct JudgedCandidate {
     images::Layers strategies;
 };
 
-/// Chooses the method by what the files are: a scene is rendered in stages; a picture of ours with its
-/// batches (`render --keep-batches`) and several pictures are compared by these; a single picture by the
-/// noise that its number of samples lets expect. Throws images::ImageError, scenes::SceneError and
-/// std::invalid_argument, which names the file, for what cannot be read or compared, pictures that are
-/// not independent among it; Interrupted if a render was.
+/// Chooses the method by the kind of the files. A scene is rendered in stages. A picture with its
+/// batches
+/// (`render --keep-batches`) is compared by its batches, several pictures as independent batches, a
+/// single picture by the noise that its number of samples makes expect. Throws images::ImageError,
+/// scenes::SceneError or std::invalid_argument, with the name of the file, if a file cannot be read or
+/// compared or pictures are not independent; Interrupted if a render was interrupted.
 JudgedCandidate judge(const golden::Golden& golden, const std::vector<std::string>& files,
                       const CompareCommand& options);
 

@@ -1,4 +1,5 @@
-// `plumbline compare`: is this picture right? The answer on one screen, as JSON, or as a page.
+// `plumbline compare`: compares a picture with a golden, and prints the result as text, as JSON, or as a
+// page.
 
 #include "cli/compare_command.h"
 
@@ -48,7 +49,7 @@ void print_screen(const golden::Comparison& comparison)
     if (comparison.noise_ratio) std::printf("noise       %s\n", say_noise(comparison).c_str());
     if (const std::string limit = say_golden_limit(comparison); !limit.empty())
         std::printf("golden      %s\n", limit.c_str());
-    std::printf("\nwhole picture  candidate/golden     99%% interval         would have seen\n");
+    std::printf("\nwhole picture  candidate/golden     99%% interval           detectable\n");
     for (std::size_t c = 0; c < golden::channel_count; ++c) {
         const golden::Finding& whole = whole_picture(comparison, c);
         std::printf("  %-12s %12.3f%%   %8.3f%% .. %8.3f%%   %12.2f%%\n", golden::channel_names[c],
@@ -66,14 +67,15 @@ void print_screen(const golden::Comparison& comparison)
         std::printf("  z %+6.2f  p %8.2g (adjusted %8.2g)  ratio %8.2f%%  %s\n", worst[i]->test.z,
                     worst[i]->test.p, worst[i]->adjusted_p, 100.0 * worst[i]->ratio,
                     describe(*worst[i]).c_str());
-    if (comparison.blindest_stratum) {
-        const golden::Finding& blindest = comparison.findings[*comparison.blindest_stratum];
-        std::printf("\nblindest stratum: %s\n", describe(blindest).c_str());
-        if (std::isfinite(blindest.detectable))
-            std::printf("  where an error of %.2f%% would have been seen\n",
-                        100.0 * blindest.detectable);
+    if (comparison.least_sensitive_stratum) {
+        const golden::Finding& least_sensitive =
+            comparison.findings[*comparison.least_sensitive_stratum];
+        std::printf("\nleast sensitive stratum: %s\n", describe(least_sensitive).c_str());
+        if (std::isfinite(least_sensitive.detectable))
+            std::printf("  where an error of %.2f%% is detectable\n",
+                        100.0 * least_sensitive.detectable);
         else
-            std::printf("  where no error would have been seen for certain\n");
+            std::printf("  where no error is detectable\n");
     }
 }
 
@@ -108,7 +110,7 @@ ExitStatus compare_command(const CompareCommand& options)
 void add_compare_command(CLI::App& program, Work& work)
 {
     const auto options = std::make_shared<CompareCommand>();
-    CLI::App* command = program.add_subcommand("compare", "Judge a picture by a golden");
+    CLI::App* command = program.add_subcommand("compare", "Compare a picture with a golden");
     add_compare_options(*command, *options);
     command->footer("A candidate is an .exr, a .pfm, or a scene, .dae, that is rendered here.\n"
                     "Exit status: 0 PASS, 1 FAIL, 3 INCONCLUSIVE, 2 bad input.\n"

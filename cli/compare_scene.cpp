@@ -15,7 +15,6 @@
 
 namespace cli {
 
-/// Whether batches of the two are distributed alike if both are right.
 bool same_estimator(const images::Metadata& a, const images::Metadata& b)
 {
     for (const char* key : {"integrator", "heuristic", "batch_size", "max_edges", "roulette"})

@@ -1,6 +1,6 @@
 #pragma once
 
-// A scene that `plumbline compare` renders itself.
+// A scene file as the candidate of `plumbline compare`.
 
 #include "cli/compare_candidate.h"
 #include "golden/golden.h"
@@ -9,10 +9,11 @@
 
 namespace cli {
 
-/// Whether batches of the two are distributed alike if both are right.
+/// Whether right batches of the two have the same distribution.
 bool same_estimator(const images::Metadata& a, const images::Metadata& b);
 
-/// Renders the scene in stages as the golden was rendered, but for what the options say, and judges it.
+/// Renders the scene in stages, with the golden's parameters except those of the options, and compares
+/// it with the golden.
 /// The first stage has options.samples per pixel, rounded up to whole batches, a later one 4 times as
 /// many. Throws scenes::SceneError, std::invalid_argument, Interrupted.
 JudgedCandidate judge_scene(const golden::Golden& golden, const std::string& file,

@@ -7,11 +7,11 @@
 namespace cli {
 
 /// Renders batches of each golden anew, drawn at random, and compares all their functionals, bit for
-/// bit; with as many batches as the golden has, its mean too. Says what it finds line by line.
+/// bit; with as many batches as the golden has, its mean too. Prints a line per golden.
 ExitStatus verify_goldens(const GoldenCommand& options);
 
-/// A line per scene: what its golden holds, what error a comparison with it can see, and whether the
-/// scene has changed since.
+/// Prints a line per scene: size and samples of its golden, the error that a comparison with it detects,
+/// and whether the scene has changed since.
 ExitStatus list_goldens(const GoldenCommand& options);
 
 } // namespace cli

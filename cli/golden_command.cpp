@@ -1,4 +1,4 @@
-// `plumbline golden`: reference pictures, batch by batch, with all that is needed to judge by them.
+// `plumbline golden`: makes reference pictures, batch by batch, with the data that comparisons need.
 
 #include "cli/golden_command.h"
 
@@ -38,7 +38,7 @@ std::string command_of(const GoldenCommand& options, const std::string& scene)
            std::to_string(options.max_edges);
 }
 
-/// Whether it was finished.
+/// Makes or continues one golden. False if it was interrupted.
 bool make_golden(const GoldenCommand& options, const std::string& file)
 {
     const Size size = parse_size(options.size);
@@ -134,10 +134,10 @@ ExitStatus golden_command(GoldenCommand options)
 void add_golden_command(CLI::App& program, Work& work)
 {
     const auto options = std::make_shared<GoldenCommand>();
-    CLI::App* command =
-        program.add_subcommand("golden", "Make, check and list the pictures that others are judged by");
+    CLI::App* command = program.add_subcommand(
+        "golden", "Make, check and list goldens, the reference pictures of compare");
     add_golden_options(*command, *options);
-    command->footer("Interrupted, the same command goes on where it stopped.\n"
+    command->footer("After an interruption, the same command continues where it stopped.\n"
                     "Example: plumbline golden scenes/cornell_glass.dae -s 10240");
     command->callback([options, command, &work] {
         const auto given = [&](const char* name) { return command->count(name) > 0; };

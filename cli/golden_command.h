@@ -29,8 +29,7 @@ struct GoldenCommand {
     bool list = false;
     std::uint64_t verify = 0; // batches per golden; 0: make goldens instead
     bool quiet = false;
-    /// Which of the options above were given: those must be what a golden that is there was made with,
-    /// also where none is made.
+    /// Which of the options above were given. --list and --verify compare only these with the golden.
     struct Given {
         bool size = false, samples = false, batch_size = false, pilot_batches = false, max_edges = false;
     } given;

@@ -18,10 +18,10 @@ std::string say_size(int width, int height)
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-/// Gathers what differs.
+/// The list of differences, as text.
 class Differences {
 public:
-    /// `option`, if there is one, is what the value that is asked for was given by.
+    /// `option`: the command-line option of the value `asked`, if there is one.
     void compare(const std::string& name, const std::string& there, const std::string& asked,
                  const std::string& option = "")
     {
@@ -36,7 +36,7 @@ private:
     std::string text_;
 };
 
-/// One that is finished must have the samples; one in the making, no more than them.
+/// A finished golden must have exactly the samples of the options, an unfinished one at most as many.
 void compare_samples(const GoldenCommand& options, const FoundGolden& found, Differences& differences)
 {
     const std::string there = value_of(found.metadata, "samples");
@@ -72,7 +72,7 @@ void expect_made_so(const GoldenCommand& options, Ask ask, const FoundGolden& fo
                             "--max-edges");
     if (all || given.samples) compare_samples(options, found, differences);
     for (const auto& [key, value] : render_says)
-        // A golden stays until its picture is wrong, whatever the version.
+        // Goldens of earlier versions stay valid.
         if (key != "version" && key != "batch_size" && key != "max_edges")
             differences.compare(key, value_of(there, key), value);
     if (!differences.text().empty())

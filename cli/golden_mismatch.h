@@ -1,6 +1,6 @@
 #pragma once
 
-// Was a golden made with the options that are given now?
+// Was an existing golden made with the options that are given now?
 
 #include "cli/golden_command.h"
 #include "images/film.h"
@@ -9,7 +9,7 @@
 
 namespace cli {
 
-/// A golden that is there, or one in the making.
+/// A golden in a file, finished or not.
 struct FoundGolden {
     const std::filesystem::path& path;
     const images::Image& mean;
@@ -18,9 +18,9 @@ struct FoundGolden {
 };
 enum class Ask { all_options, given_options };
 
-/// Throws images::ImageError that names each difference, with both values, if the golden was not made as
-/// the options say: all of them, or only those that were given. `render_says` is how the render of the
-/// scene describes itself; what is not in it is not compared.
+/// Throws images::ImageError that names each difference, with both values, if the golden was made with
+/// other options: all of them, or only those that were given. `render_says`: the metadata of the render
+/// of the scene; other entries are not compared.
 void expect_made_so(const GoldenCommand& options, Ask ask, const FoundGolden& found,
                     const images::Metadata& render_says);
 

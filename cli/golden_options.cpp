@@ -10,12 +10,11 @@ namespace cli {
 void add_golden_options(CLI::App& command, GoldenCommand& options)
 {
     command.add_option("scenes", options.scenes, "COLLADA files");
-    CLI::Option* all =
-        command.add_flag("--all", options.all, "All scenes, .dae, in the folder of scenes");
-    command.add_option("--scene-folder", options.scene_folder, "Where the scenes of --all are")
+    CLI::Option* all = command.add_flag("--all", options.all, "All .dae files in the scene folder");
+    command.add_option("--scene-folder", options.scene_folder, "Folder of the scenes of --all")
         ->needs(all)
         ->capture_default_str();
-    command.add_option("--folder", options.folder, "Where goldens are")->capture_default_str();
+    command.add_option("--folder", options.folder, "Folder of the goldens")->capture_default_str();
     command.add_option("--size", options.size, "Width x height in pixels")->capture_default_str();
     command.add_option("-s,--samples", options.samples, "Samples per pixel, the pilot's included")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
@@ -25,7 +24,7 @@ void add_golden_options(CLI::App& command, GoldenCommand& options)
         ->capture_default_str();
     command
         .add_option("--pilot", options.pilot_batches,
-                    "Batches that choose weights and regions and are used for nothing else")
+                    "Batches from which weights and regions are computed, not compared")
         ->check(CLI::Range(std::uint64_t{2}, std::uint64_t{1} << 20))
         ->capture_default_str();
     command.add_option("--max-edges", options.max_edges, "Longest path, the camera's edge counted")
@@ -34,14 +33,14 @@ void add_golden_options(CLI::App& command, GoldenCommand& options)
     command.add_option("-t,--threads", options.threads, "Threads; the picture does not depend on them")
         ->check(CLI::Range(1u, 1024u));
     CLI::Option* watch =
-        command.add_option("--watch", options.watch, "Seconds between writes of what there is")
+        command.add_option("--watch", options.watch, "Seconds between writes of an unfinished golden")
             ->check(CLI::Range(0.0, 1e9))
             ->capture_default_str();
-    CLI::Option* list = command.add_flag("--list", options.list, "Say what is there, make nothing");
+    CLI::Option* list = command.add_flag("--list", options.list, "List the goldens, make none");
     list->excludes(watch);
     command
         .add_option("--verify", options.verify,
-                    "Render so many batches of each golden again: the same bits?")
+                    "Render this many batches of each golden again and compare the bits")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
         ->excludes(list, watch);
     command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");

@@ -12,10 +12,10 @@
 
 namespace cli {
 
-/// Goldens have a seed of their own: no candidate may share their random numbers.
+/// The seed of all goldens. No candidate may use it, as the two would share random numbers.
 inline constexpr std::uint64_t golden_seed = 271828182845904523;
 
-/// The render that a golden is made of, and that it says it was made of.
+/// The render that a golden is made of, and that its metadata describe.
 RenderCommand render_of(const GoldenCommand& options, const std::string& scene);
 
 /// The same, read back from a golden's metadata. Throws std::invalid_argument if something is missing.

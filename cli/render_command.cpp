@@ -1,4 +1,4 @@
-// `plumbline render`: a scene file in, pictures out.
+// `plumbline render`: renders a scene file.
 
 #include "cli/render_command.h"
 
@@ -35,8 +35,8 @@ double seconds_since(Clock::time_point start)
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// `metadata`, with what is known only of a film: how many samples it holds, and how many contributions
-/// it lacks because they are not finite.
+/// `metadata` with the entries of a film: the number of its samples, and that of the contributions that
+/// were left out because they are not finite.
 images::Metadata describe_film(const RenderCommand& options, const images::Film& film,
                                const images::Dropped& dropped, images::Metadata metadata)
 {
@@ -73,7 +73,7 @@ void write_strategies(const RenderCommand& options, const images::Strategies& pi
                           options.exposure);
 }
 
-/// In the order of batches, which is also that of names.
+/// Names in ascending order are the batches in theirs.
 std::string batch_name(std::size_t number)
 {
     const std::string digits = std::to_string(number);

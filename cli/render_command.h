@@ -48,11 +48,11 @@ void add_render_options(CLI::App& command, RenderCommand& options);
 /// that any number of samples is whole batches.
 void settle_batch_size(RenderCommand& options, bool given);
 
-/// Whether a picture of every strategy is asked for.
+/// Whether a picture of every strategy is to be written.
 bool wants_layers(const RenderCommand& options);
 
-/// Throws std::invalid_argument or images::ImageError for options that cannot be meant, and for places
-/// that cannot be written to, before any work is done.
+/// Throws std::invalid_argument or images::ImageError for options that exclude each other, and for files
+/// that cannot be written.
 void check(const RenderCommand& options);
 
 /// Throws std::invalid_argument unless `samples` per pixel are whole batches.

@@ -16,7 +16,7 @@ images::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
                                  {"seed", std::to_string(options.seed)},
                                  {"camera", options.frame ? "framed" : "of the scene"},
                                  {"version", PLUMBLINE_VERSION}};
-    // Nothing is said of the reference, so that its files stay what they were.
+    // No entry for the reference, so that its files do not change.
     if (options.device != "ref") metadata["device"] = options.device;
     return metadata;
 }

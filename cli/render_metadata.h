@@ -10,11 +10,11 @@
 
 namespace cli {
 
-/// Everything that shapes the picture, and so must be the same for one render to go on from another: not
-/// the threads and not the builder of the tree, which change no bit.
+/// All parameters that the picture depends on. They must be equal for one render to continue another.
+/// Threads and tree builder change no bit and are not among them.
 images::Metadata describe(const RenderCommand& options, const scenes::Scene& scene);
 
-/// What the metadata say of `key`; the empty string if they say nothing.
+/// The metadata's entry `key`; the empty string if there is none.
 std::string value_of(const images::Metadata& metadata, const std::string& key);
 
 } // namespace cli

@@ -26,13 +26,13 @@ const std::map<std::string, images::Heuristic> heuristics = {{"balance", images:
 /// Each is a picture in memory and in the file.
 constexpr std::uint64_t most_batches_kept = 1024;
 
-/// A check that the help page does not repeat: the option's own text names them.
+/// A check without a text of its own on the help page, as the option's text names the words.
 CLI::Validator one_of(const std::vector<std::string>& words)
 {
     return CLI::IsMember(words).description("");
 }
 
-/// CLI11 takes "-1" for 2^64 - 1, and what is larger for that too.
+/// Needed because CLI11 reads "-1" and numbers above 2^64 - 1 as 2^64 - 1.
 std::string expect_seed(const std::string& text)
 {
     return images::whole_number(text) ? "" : "expected a whole number from 0 to 2^64 - 1, not " + text;
@@ -45,7 +45,9 @@ void add_picture_options(CLI::App& command, RenderCommand& options)
     command.add_option("-o,--output", options.outputs, "Picture: .exr, .pfm or .png; may be repeated")
         ->required();
     command.add_option("--size", options.size, "Width x height in pixels")->capture_default_str();
-    command.add_option("-s,--samples", options.samples, "Samples per pixel in the end")
+    command
+        .add_option("-s,--samples", options.samples,
+                    "Samples per pixel, those of an earlier render included")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
         ->capture_default_str();
     command
@@ -89,8 +91,8 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
         .add_option("--max-edges", options.max_edges,
                     "Longest path, the camera's edge counted [no limit]")
         ->check(CLI::Range(1, 1 << 20));
-    command.add_flag("--no-roulette", options.no_roulette, "Never end a path by chance");
-    command.add_option("--seed", options.seed, "Another seed, another noise")
+    command.add_flag("--no-roulette", options.no_roulette, "No Russian roulette");
+    command.add_option("--seed", options.seed, "Seed of the random numbers")
         ->check(expect_seed)
         ->capture_default_str();
 }
@@ -98,23 +100,20 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
 /// The camera, the outputs and the messages.
 void add_output_options(CLI::App& command, RenderCommand& options)
 {
-    command
-        .add_option("--exposure", options.exposure, "For .png: stops that the picture is brightened by")
+    command.add_option("--exposure", options.exposure, "For .png: brighten the picture, in stops")
         ->check(CLI::Range(-64.0, 64.0))
         ->capture_default_str();
-    command.add_flag("--frame", options.frame, "Move the camera back to where it sees the whole scene");
-    command.add_flag("--resume", options.resume,
-                     "Go on from the samples in the .exr output, if it is there");
+    command.add_flag("--frame", options.frame, "Move the camera back until the whole scene is visible");
+    command.add_flag("--resume", options.resume, "Continue the render in the .exr output, if it exists");
     command
-        .add_option("--watch", options.watch,
-                    "Rewrite the outputs every so many seconds while rendering")
+        .add_option("--watch", options.watch, "Seconds between writes of the outputs while rendering")
         ->check(CLI::Range(0.0, 1e9).description(""));
     command.add_option("--strategies", options.strategies, "One layer per strategy (s,t), to this .exr");
     command.add_option("--strategies-picture", options.strategies_picture,
                        "The sheet of all strategies, to this .png");
-    command.add_flag("--unweighted", options.unweighted, "Strategies as if each were the only one");
+    command.add_flag("--unweighted", options.unweighted, "Each strategy as if it were the only one");
     command.add_flag("--keep-batches", options.keep_batches,
-                     "Keep each batch as a layer of the .exr outputs: compare judges by them");
+                     "Keep each batch as a layer of the .exr outputs, for compare");
     command.add_flag("--json", options.json,
                      "Print one JSON object: time, samples, mean and its error, kernel");
     command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");

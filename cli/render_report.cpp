@@ -41,7 +41,7 @@ Json requirements_json(const scenes::Scene& scene)
             {"fov_axes", names(required.fov_axes)}};
 }
 
-/// What the kernel can do besides triangles and Lambertian surfaces.
+/// The features of the kernel besides triangles and Lambertian surfaces.
 Json kernel_json(const std::optional<gpu::Needs>& kernel)
 {
     if (!kernel) return nullptr;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Going on from an earlier render.
+// Continues an earlier render.
 
 #include "cli/render_command.h"
 #include "images/dropped.h"
@@ -9,8 +9,8 @@
 namespace cli {
 
 /// The film to start from: that of the file to resume, or an empty one. Throws std::invalid_argument or
-/// images::ImageError if the file holds another picture than the one asked for.
-/// `dropped` becomes the number of contributions that the film lacks.
+/// images::ImageError if the file holds another picture. `dropped` is set to the number of contributions
+/// that were left out of the film.
 images::Film starting_film(const RenderCommand& options, const images::Metadata& description,
                            images::Dropped& dropped);
 

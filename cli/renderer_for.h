@@ -1,6 +1,6 @@
 #pragma once
 
-// What renders for the options of `plumbline render` and its like, on whichever device.
+// The renderer for the options of a command, on any device.
 
 #include "cli/render_command.h"
 #include "cuda/transport/needs.h"
@@ -12,12 +12,12 @@
 
 namespace cli {
 
-/// The renderer that the options ask for; the scene, which must have a camera, must outlive it. Says on
-/// stderr what floats cannot hold, unless options.quiet. Throws std::runtime_error where there is no
-/// such device, gpu::OutOfMemory, std::invalid_argument.
+/// The renderer for the options. The scene must have a camera and must outlive it. Prints notices of
+/// values that floats cannot represent to stderr, unless options.quiet. Throws std::runtime_error where
+/// there is no such device, gpu::OutOfMemory, std::invalid_argument.
 std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, const scenes::Scene& scene);
 
-/// What the kernels of the fast path can do; none for the reference.
+/// The features of the kernels of the fast path; none for the reference.
 std::optional<gpu::Needs> kernel_of(const images::Renderer& renderer);
 
 } // namespace cli

@@ -10,7 +10,8 @@
 
 namespace golden {
 
-/// The batches of one stage of a candidate, seen through a golden's functionals, which must outlive it.
+/// The batches of one stage of a candidate, each as its mean per pixel and as the values of a golden's
+/// functionals. The functionals must outlive it.
 class Candidate {
 public:
     explicit Candidate(const Functionals& functionals);

@@ -17,12 +17,12 @@ namespace {
 double largest_of(const std::array<double, channel_count>& errors)
 {
     double largest = 0.0;
-    for (const double error : errors) largest = std::fmax(largest, error); // passes over NaN
+    for (const double error : errors) largest = std::fmax(largest, error); // ignores NaN
     return largest;
 }
 
-/// A golden of so many times the batches would leave half of the variance that is allowed to the
-/// candidate, if the difference of two means is normally distributed: ranks need 3 / pi times as many.
+/// The factor by which the golden's batches must grow so that its variance is half of what is allowed
+/// to the difference. By t tests; ranks need 3 / pi times as many batches for normal noise.
 double golden_needed(const Golden& golden, const CompareOptions& options)
 {
     double factor = 1.0;
@@ -35,7 +35,8 @@ double golden_needed(const Golden& golden, const CompareOptions& options)
     return factor;
 }
 
-/// The same as summarise_reach for ranks, of which no formula tells what more batches would show.
+/// Fills in golden_limit and shortfall for ranks, by search: there is no formula for the error that more
+/// batches make detectable.
 void reach_by_ranks(Comparison& comparison, const Golden& golden, const CompareOptions& options)
 {
     constexpr std::uint64_t beyond_count = std::uint64_t{1} << 50;
@@ -78,13 +79,13 @@ Comparison first_stage(const Golden& golden, const Candidate& candidate, Method 
     const Judge judge(golden, method, options);
     for (std::size_t c = 0; c < channel_count; ++c)
         for (std::size_t f = 0; f < golden.functionals.size(); ++f)
-            if (judge.looks_at(f)) comparison.findings.push_back(judge.judge(candidate.rows(), f, c));
+            if (judge.can_test(f)) comparison.findings.push_back(judge.judge(candidate.rows(), f, c));
     summarise(comparison);
     if (method == Method::ranks)
         reach_by_ranks(comparison, golden, options);
     else
         summarise_reach(comparison, golden, options);
-    // Of how many samples pictures of another estimator are is not known; of one of a batch at least.
+    // The samples of a picture of another estimator are not known, but each has at least one.
     const double batches = method == Method::ranks ? comparison.candidate_batches
                            : comparison.batch_size > 0.0
                                ? comparison.candidate_batches / comparison.batch_size
@@ -138,7 +139,7 @@ std::array<double, 3> detectable_error(const Golden& golden, std::uint64_t batch
     std::array<double, 3> detectable{};
     detectable.fill(std::numeric_limits<double>::quiet_NaN());
     for (std::size_t channel = 0; channel < channel_count; ++channel)
-        for (std::size_t f = 0; f < weights.size(); ++f) // those of region 0, the whole picture
+        for (std::size_t f = 0; f < weights.size(); ++f) // of region 0, the whole picture
             detectable[channel] = std::fmin(detectable[channel],
                                             judge.detectable(f, channel, static_cast<double>(batches)));
     return detectable;

@@ -14,12 +14,13 @@ struct CompareOptions {
     double confirmation_level = 1e-7;
     double certainty_level = 1e-8; // of an adjusted p-value: below it, one stage is enough for FAIL
     double dark_level = 1e-9;      // of all pixels together: below it, a dark pixel is enough for FAIL
-    double specification = 0.005;  // relative error of the whole picture that must be detectable to pass
-    double power = 0.99;           // with this probability
-    double confidence = 0.99;      // of the intervals of ratios
-    double rounding = 2e-6;        // relative difference that is put down to single precision
-    double skewness = 0.15;        // |skewness| / sqrt(batches) up to which a t test is believed
-    std::vector<std::uint64_t> stages = {64, 256}; // batches of each
+    /// PASS requires that a relative error of the whole picture of this size is detectable.
+    double specification = 0.005;
+    double power = 0.99;      // chance that a detectable error is suspected
+    double confidence = 0.99; // of the intervals of ratios
+    double rounding = 2e-6;   // relative difference that single precision explains
+    double skewness = 0.15;   // largest |skewness| / sqrt(batches) for which a t test is conclusive
+    std::vector<std::uint64_t> stages = {64, 256}; // batches of each stage
 };
 
 } // namespace golden

@@ -18,19 +18,19 @@ namespace golden {
 enum class Verdict { pass, fail, inconclusive };
 std::string describe(Verdict verdict); // "PASS", "FAIL", "INCONCLUSIVE"
 
-/// One stage, and what it said about the suspicion: the finding with the smallest adjusted p-value.
+/// The result of one stage for the suspicion: the finding with the smallest adjusted p-value.
 struct Stage {
     std::uint64_t batches;
     double p;     // first stage: the smallest adjusted p; later: one-sided, of that functional alone
     double level; // the suspicion stands if p < level
 };
 
-/// How much it would take for an error of the specified size to be detectable: so many batches of the
-/// candidate (pictures, with Method::welch) with the golden as it is; or a golden of so many batches,
-/// its pilot included. The first is infinite if the golden's own noise hides such an error.
+/// The batches that make an error of the specified size detectable.
 struct Shortfall {
+    /// Of the candidate (pictures, with Method::welch), with the golden as it is; infinite if the
+    /// golden's own noise hides such an error.
     double candidate;
-    double golden;
+    double golden; // of a golden, its pilot included, if that is what limits
 };
 
 struct Comparison {
@@ -39,33 +39,32 @@ struct Comparison {
     Method method = Method::ranks;
     double p = 1.0; // the smallest adjusted p of the first stage
     std::vector<Finding> findings;
-    std::optional<std::size_t> suspicion; // of `findings`: the smallest p, whether it stands or not
+    std::optional<std::size_t>
+        suspicion; // index into `findings`: the smallest adjusted p, significant or not
     std::vector<Stage> stages;
     /// Smallest detectable relative error of the whole picture, per channel, at the first stage; NaN for
     /// a channel in which the golden is black.
     std::array<double, 3> detectable{};
     /// The same for a candidate without noise: smaller errors are hidden by the golden's own noise.
     std::array<double, 3> golden_limit{};
-    std::optional<Shortfall> shortfall; // if `detectable` is larger than the specification asks for
-    std::vector<OddPixels> odd;         // of the candidate's pixels: named before all statistics
-    /// The stratum in which the smallest detectable error is largest: the finding that would show it, if
-    /// any would.
-    std::optional<std::size_t> blindest_stratum;
-    double false_alarm = 0.0; // at most this chance has a right picture to FAIL
+    std::optional<Shortfall> shortfall; // if `detectable` is larger than the specification
+    std::vector<OddPixels> odd;         // of the candidate's pixels
+    /// Index into `findings`: the stratum in which the smallest detectable error is largest.
+    std::optional<std::size_t> least_sensitive_stratum;
+    double false_alarm = 0.0; // upper bound of the chance that a right picture FAILs
     double coverage = 1.0;    // share of the findings that are conclusive
-    /// Method::picture: the variance of the picture's own noise over the one assumed, in the whole
-    /// picture but its odd pixels, in the channel where it is largest; and the standard error of this
-    /// ratio.
+    /// Method::picture: measured over assumed variance of the picture's own noise, without its odd
+    /// pixels, in the channel where the ratio is largest; and the standard error of this ratio.
     std::optional<double> noise_ratio, noise_error;
-    std::uint64_t golden_batches = 0; // those that the candidate was compared with
+    std::uint64_t golden_batches = 0; // after its pilot
     double candidate_batches = 0.0;   // of its first stage; pictures, with Method::welch
-    double batch_size = 0.0;          // samples per pixel in a batch of the golden; 0 if it does not say
+    double batch_size = 0.0;          // samples per pixel in a batch of the golden; 0 if not known
 };
 
-/// The finding of the whole picture in this channel, plainly weighed: its ratio is that of the means.
+/// The finding of the whole picture in this channel with plain weights: its ratio is that of the means.
 const Finding& whole_picture(const Comparison& comparison, std::size_t channel);
 
-/// The fine tiles' z in one channel, matched weights: row by row, `columns` a row; NaN if inconclusive.
+/// z of the fine tiles in one channel with matched weights, row by row; NaN if inconclusive.
 struct TileMap {
     int columns = 0, rows = 0;
     std::vector<double> z;

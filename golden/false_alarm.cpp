@@ -14,7 +14,7 @@ double false_alarm_bound(const Functionals& functionals, Method method, std::uin
     for (const std::uint64_t batches : stages) counts.push_back(static_cast<double>(batches));
     double sum = options.certainty_level;
     for (const RegionKind kind : multiplicity.kinds()) {
-        // Two-sided first, and then in the direction that was seen: twice the chance of either sign.
+        // The first stage is two-sided, the later ones test its direction: twice the chance of one sign.
         std::vector<double> levels(stages.size(), options.confirmation_level);
         levels[0] = options.suspicion_level / multiplicity.of(kind) / 2.0;
         sum += 2.0 * multiplicity.tests_of(kind) *

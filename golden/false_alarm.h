@@ -11,10 +11,10 @@
 
 namespace golden {
 
-/// Upper bound of the chance that a right picture fails. `stages` are the batches of each; with one
-/// stage only the certainty level counts. All stages are compared with the same golden, whose own error
-/// they share: the bound is an integral over that error, for means that are normally distributed as
-/// those of a few dozen batches nearly are, summed over all functionals as if none knew of another.
+/// Upper bound of the chance that a right picture fails. `stages`: the batches of each stage; with one
+/// stage it is the certainty level. All stages share the error of the golden, so the bound integrates
+/// over that error (docs/comparison.md, section 6). It assumes normally distributed means, which those
+/// of a few dozen batches nearly are, and adds the chances of all functionals.
 double false_alarm_bound(const Functionals& functionals, Method method, std::uint64_t golden_batches,
                          const std::vector<std::uint64_t>& stages, const CompareOptions& options);
 

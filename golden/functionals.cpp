@@ -22,9 +22,9 @@ double luminance(const images::Rgb& color)
     return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b; // Rec.709
 }
 
-/// The variance of a batch that a pixel is given at least. A pilot of n batches that has seen nothing
-/// vary says with 95% confidence only that whatever it missed is rarer than 3 in n (the rule of three);
-/// something of the size of the mean, that often, would be a variance of 3 m^2 / n.
+/// The variance of a batch in one pixel, at least 3 m^2 / n. If an event occurs in none of n batches,
+/// its chance is below 3 / n with 95% confidence (the rule of three); an event of the size of the mean m
+/// with that chance has this variance.
 double batch_variance(double mean, double noise, std::uint64_t batches)
 {
     return mean * mean * std::max(noise * noise, 3.0 / static_cast<double>(batches));
@@ -154,7 +154,7 @@ void Functionals::weigh()
             if (!(mean[i][c] > 0.0)) continue;
             variance[i][c] = batch_variance(mean[i][c], pilot_.noise.pixels[i][c], pilot_.batches);
             matched_[i][c] = mean[i][c] / variance[i][c];
-            // A mean so small that its square is 0 weighs nothing.
+            // A mean so small that its square is 0 gets the weight 0.
             if (!std::isfinite(matched_[i][c])) matched_[i][c] = 0.0;
         }
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
@@ -164,8 +164,8 @@ void Functionals::weigh()
         });
         const Sums variances = sum_over_regions([&](std::size_t i) -> std::array<double, 3> {
             const double w = matched_[i][c];
-            // To first order c / (c + m) has a quarter of the relative variance; being between 0 and 1,
-            // at most 1/4.
+            // To first order the standard deviation of c / (c + m) is a quarter of the relative one of
+            // c. A value between 0 and 1 has a variance of at most 1/4.
             const double relative = mean[i][c] > 0.0 ? variance[i][c] / (mean[i][c] * mean[i][c]) : 0.0;
             return {w * w * variance[i][c], variance[i][c], std::min(0.25, relative / 16.0)};
         });
@@ -216,7 +216,7 @@ double Functionals::bounded(std::size_t pixel, int channel, double value) const
 {
     const double light = std::max(0.0, value);
     const double m = std::max(0.0, pilot_.mean.pixels[pixel][channel]);
-    // Where the pilot is black, black is in the middle: it is what is expected there.
+    // Where pilot and value are both black, 1/2 is expected.
     return light + m > 0.0 ? light / (light + m) : 0.5;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-// A picture in a few hundred numbers per channel: weighted means over regions. Batches of pictures are
-// compared through these numbers, not pixel by pixel, because a small error everywhere is invisible in
-// any one pixel and plain in a mean.
+// A picture as a few hundred numbers per channel, its functionals: weighted means over regions. Batches
+// are compared by these numbers and not pixel by pixel, because a small error everywhere is hidden by
+// the noise of a single pixel and not by that of a mean.
 //
-// Regions and weights are chosen by looking at a pilot: some batches of the golden that are used for
-// nothing else, so that the choice cannot depend on the noise that is then judged.
+// Regions and weights are computed from a pilot: some batches of the golden that are used for nothing
+// else, so that the choice cannot depend on the noise of what is compared.
 
 #include "golden/pilot.h"
 #include "golden/region.h"
@@ -17,7 +17,7 @@
 
 namespace golden {
 
-/// One region seen through one weight.
+/// A region and a weight.
 struct Functional {
     std::size_t region; // into Functionals::regions()
     Weight weight;
@@ -41,9 +41,9 @@ public:
     [[nodiscard]] std::size_t size() const { return regions_.size() * weights.size(); }
     [[nodiscard]] Functional at(std::size_t functional) const;
 
-    /// What standardised values stand for. A linear functional is divided by its value of the pilot's
-    /// mean, so that 1 is expected and a relative error of the picture is one of the functional; where
-    /// the pilot is black it is the plain sum, and 0 is expected.
+    /// The value of a right picture, before standardising. A linear functional is divided by its value
+    /// of the pilot's mean: 1 is expected, and a relative error of the picture is the same relative
+    /// error of the functional. Where the pilot is black it is the plain sum, and 0 is expected.
     [[nodiscard]] double expected(std::size_t functional, std::size_t channel) const;
     /// About the standard deviation of one batch, positive.
     [[nodiscard]] double spread(std::size_t functional, std::size_t channel) const;
@@ -52,8 +52,8 @@ public:
     /// or infinite.
     [[nodiscard]] Row evaluate(const images::Image& batch) const;
 
-    /// By how much each value of a row moves per relative error of the whole picture, for the bounded
-    /// functionals, as this batch tells; 0 for the linear ones. Throws as evaluate.
+    /// The derivative of each bounded functional with respect to a relative error of the whole picture,
+    /// at this batch, standardised; 0 for the linear ones. Throws as evaluate.
     [[nodiscard]] Row slopes(const images::Image& batch) const;
 
     /// The pixel's share in a linear functional of its channel is weight * value; 0 outside the region.
@@ -74,7 +74,7 @@ private:
     /// c / (c + m), for a value c of the pixel.
     [[nodiscard]] double bounded(std::size_t pixel, int channel, double value) const;
     [[nodiscard]] bool contains(const Region& region, std::size_t pixel) const;
-    /// The sums over tiles and the whole picture, once those over fine tiles and strata are there.
+    /// Adds the sums over fine tiles up to those over coarse tiles and the whole picture.
     void sum_up(Sums& sums) const;
     template <class PixelTerms>
     [[nodiscard]] Sums sum_over_regions(const PixelTerms& terms) const;

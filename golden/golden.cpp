@@ -59,7 +59,7 @@ std::vector<Row> read_rows(const fs::path& path, const images::Layers& layers,
 {
     const std::size_t count = functionals.size();
     const auto pixels = functionals.pilot().mean.pixels.size();
-    // Before memory is asked for: do the layers hold so many?
+    // Checked before memory is allocated: the layers must hold that many.
     const std::size_t layers_needed = (batches * count + pixels - 1) / pixels;
     if (batches > layers.size() * pixels / count || !layers.contains(reference_layer(layers_needed - 1)))
         throw images::ImageError(path, "damaged golden: says it holds " + std::to_string(batches - 1) +
@@ -97,7 +97,7 @@ std::uint64_t find_number(const fs::path& path, const images::Metadata& metadata
     return *number;
 }
 
-/// What two builds of this program must agree on to read each other's goldens.
+/// The layout of the functionals. Two builds of this program read each other's goldens if it is equal.
 std::string say_functionals(const Functionals& functionals)
 {
     return "version 1, " + std::to_string(functionals.size()) + " per channel";

@@ -23,7 +23,7 @@ Judge::Judge(const Golden& golden, Method method, const CompareOptions& options)
             (pixel.r + pixel.g + pixel.b) / (3.0 * static_cast<double>(golden.mean.pixels.size()));
 }
 
-bool Judge::looks_at(std::size_t functional) const
+bool Judge::can_test(std::size_t functional) const
 {
     return method_ == Method::ranks || is_linear(functionals_.at(functional).weight);
 }
@@ -91,7 +91,7 @@ double Judge::detectable_by_ranks(const Finding& finding, const std::vector<doub
     const std::size_t at = finding.channel * functionals_.size() + finding.functional;
     const double slope = static_cast<double>(golden_.slopes[at]) *
                          functionals_.spread(finding.functional, finding.channel);
-    // To first order in an error that is small.
+    // To first order in the error.
     return slope > 0.0 ? detectable_shift(reference, count, level, options_.power) / slope : not_defined;
 }
 
@@ -119,8 +119,8 @@ void Judge::compare_means(Finding& finding, const MeanEstimate& candidate, const
 double Judge::size_of(const Finding& finding, double mean) const
 {
     if (mean != 0.0) return std::abs(mean);
-    // Black, where the functional is a plain sum: rounding there is that of colours as bright as the
-    // picture, which a conversion between colour spaces leaves behind.
+    // Where the golden is black the functional is a plain sum. A conversion between colour spaces leaves
+    // rounding errors there, in proportion to the brightness of the picture.
     return brightness_ * static_cast<double>(finding.region.pixels);
 }
 
@@ -128,7 +128,7 @@ Reach Judge::reach_of(const Finding& finding, const MeanEstimate& candidate,
                       const MeanEstimate& expected, double skewed, double golden_skewed) const
 {
     const double level = level_of(finding);
-    // The relative error that a difference with standard error 1 shows.
+    // The smallest relative error that is detectable if the difference has standard error 1.
     const auto unit = [&](double degrees) {
         return detectable_difference(1.0, degrees, level, options_.power) / expected.mean;
     };
@@ -143,8 +143,8 @@ Reach Judge::reach_of(const Finding& finding, const MeanEstimate& candidate,
         std::max(2.0 * expected.variance / room, std::pow(golden_skewed / options_.skewness, 2.0));
     reach.candidate = without_end;
     if (too_skewed || !(room > expected.variance)) return reach;
-    // Variances fall with the number of batches, |skewness| / sqrt(B) with its root. The degrees of
-    // freedom of several pictures grow with it, those of one picture's pixels stay.
+    // With the number of batches B, variances fall as 1 / B and |skewness| / sqrt(B) as 1 / sqrt(B). The
+    // degrees of freedom grow with the number of pictures; those of one picture's pixels stay.
     const auto enough = [&](double factor) {
         const double degrees = method_ == Method::welch
                                    ? std::max(1.0, (candidate.degrees + 1.0) * factor - 1.0)
@@ -154,7 +154,7 @@ Reach Judge::reach_of(const Finding& finding, const MeanEstimate& candidate,
     };
     constexpr double smallest = 1e-12;
     constexpr double largest = 1e12;
-    // So many would do with as many degrees as there can be.
+    // Enough with the largest possible number of degrees: the search begins here.
     double factor = std::max(smallest, candidate.variance / (room - expected.variance));
     while (factor < largest && !enough(factor)) factor *= 1.1;
     reach.candidate = std::max(factor, std::pow(skewed / options_.skewness, 2.0));

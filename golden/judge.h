@@ -14,24 +14,25 @@
 
 namespace golden {
 
-/// Asks the questions. Keeps references to golden and options.
+/// Tests functionals of candidates against one golden. Keeps references to golden and options.
 class Judge {
 public:
     Judge(const Golden& golden, Method method, const CompareOptions& options);
 
-    /// Whether the method can use this functional: t tests compare means, and only of linear functionals
-    /// do two estimators of one picture have the same.
-    [[nodiscard]] bool looks_at(std::size_t functional) const;
+    /// Whether the method can test this functional. t tests compare means, and the means of two
+    /// estimators agree for linear functionals only.
+    [[nodiscard]] bool can_test(std::size_t functional) const;
 
-    /// The smallest relative error that so many batches of the golden's own kind would show in this
-    /// functional, with the stated power; NaN where that is not defined. For Method::ranks.
+    /// The smallest relative error that is found in this functional with the stated power, by a
+    /// candidate of `batches` batches of the golden's estimator; NaN where that is not defined.
+    /// Method::ranks.
     [[nodiscard]] double detectable(std::size_t functional, std::size_t channel, double batches) const;
 
-    /// Judges batches. For Method::welch there must be two at least, of candidate and golden.
+    /// Tests batches. For Method::welch candidate and golden must have two at least.
     [[nodiscard]] Finding judge(const std::vector<Row>& rows, std::size_t functional,
                                 std::size_t channel) const;
 
-    /// Judges an estimate of the functional whose noise has this |skewness| / sqrt(batches).
+    /// Tests an estimate of the functional. `skewed`: |skewness| / sqrt(batches) of its noise.
     [[nodiscard]] Finding judge(const MeanEstimate& candidate, double skewed, std::size_t functional,
                                 std::size_t channel) const;
 
@@ -42,7 +43,7 @@ private:
     [[nodiscard]] double level_of(const Finding& finding) const;
     void compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
                        double skewed) const;
-    /// Of what a functional of this mean adds up, for a relative tolerance.
+    /// The size to which a relative tolerance refers, for a functional of this mean.
     [[nodiscard]] double size_of(const Finding& finding, double mean) const;
     [[nodiscard]] Reach reach_of(const Finding& finding, const MeanEstimate& candidate,
                                  const MeanEstimate& expected, double skewed,

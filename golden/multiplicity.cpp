@@ -3,7 +3,7 @@
 namespace golden {
 
 Multiplicity::Multiplicity(const Functionals& functionals, Method method)
-    : weights_(method == Method::ranks ? 3.0 : 2.0) // t tests cannot use the bounded one
+    : weights_(method == Method::ranks ? 3.0 : 2.0) // t tests do not use the bounded one
 {
     for (const Region& region : functionals.regions()) members_[region.kind] += 1.0;
 }

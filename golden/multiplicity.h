@@ -10,13 +10,14 @@
 
 namespace golden {
 
-/// How many tests share the chance of a false alarm, seen from one of them: each channel, each family
-/// (kind of region and weight) and each member of a family gets an equal share of what is above it.
+/// The factors by which p-values are multiplied [Bonferroni]: the level is divided equally among
+/// channels, then among families (kind of region and weight), then among the members of a family.
 class Multiplicity {
 public:
     Multiplicity(const Functionals& functionals, Method method);
+    /// The factor for a functional of this kind of region.
     [[nodiscard]] double of(RegionKind kind) const;
-    /// The members of a kind's families, of all weights and channels together.
+    /// The number of tests of this kind of region, of all weights and channels together.
     [[nodiscard]] double tests_of(RegionKind kind) const;
     [[nodiscard]] std::vector<RegionKind> kinds() const;
 

@@ -22,7 +22,7 @@ enum class RegionKind {
 struct Region {
     RegionKind kind;
     int index;          // within its kind: row by row, or from the lowest stratum
-    int x0, y0, x1, y1; // x0 <= x < x1, y0 <= y < y1; for a stratum what bounds the whole picture
+    int x0, y0, x1, y1; // x0 <= x < x1, y0 <= y < y1; for a stratum those of the whole picture
     std::size_t pixels;
 };
 
@@ -31,9 +31,9 @@ std::string describe(const Region& region);
 
 /// How the pixels of a region are weighed, with m and v the pilot's mean and variance of a batch.
 enum class Weight {
-    matched, // m / v: the best linear way to see a relative error, it listens where the noise is low
-    plain,   // 1: sees an error of few bright pixels that the first would discount
-    bounded  // the mean of c / (c + m): no single sample can move it far, however bright
+    matched, // m / v: least variance for a relative error that is the same in all of the region
+    plain,   // 1: the mean, to which few bright noisy pixels contribute as well
+    bounded  // the mean of c / (c + m): a single sample, however bright, changes it little
 };
 inline constexpr std::array weights = {Weight::matched, Weight::plain, Weight::bounded};
 

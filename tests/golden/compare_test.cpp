@@ -41,8 +41,8 @@ TEST_F(Compare, ARightPicturePassesAndSaysWhatItCouldHaveSeen)
         EXPECT_GT(detectable, 0.001);
         EXPECT_LT(detectable, 0.02);
     }
-    ASSERT_TRUE(result.blindest_stratum);
-    EXPECT_GT(result.findings[*result.blindest_stratum].detectable, result.detectable[0]);
+    ASSERT_TRUE(result.least_sensitive_stratum);
+    EXPECT_GT(result.findings[*result.least_sensitive_stratum].detectable, result.detectable[0]);
     EXPECT_EQ(result.findings.size(), 3 * reference().functionals.size());
     EXPECT_EQ(result.golden_batches, 512u);
     EXPECT_EQ(result.coverage, 1.0);
