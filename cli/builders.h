@@ -1,6 +1,6 @@
 #pragma once
 
-// The words for tree builders, the same in every subcommand.
+// The names of the tree builders on the command line.
 
 #include "ref/trees/bvh.h"
 
@@ -20,7 +20,7 @@ inline constexpr std::array builders = {
     NamedBuilder{"morton30", ref::Builder::morton30}, NamedBuilder{"morton63", ref::Builder::morton63},
     NamedBuilder{"sah", ref::Builder::sah}, NamedBuilder{"sah-leaf", ref::Builder::sah_leaf}};
 
-/// All of them, as an option's list of what it takes.
+/// All names, as the values that an option accepts.
 inline std::vector<std::string> builder_names()
 {
     std::vector<std::string> names;

@@ -6,13 +6,9 @@
 #include "ref/transport/random.h"
 #include "ref/transport/sampling.h"
 #include "ref/trees/geometry.h"
-#include "ref/trees/quality.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -21,7 +17,7 @@ namespace cli {
 namespace {
 
 /// CPU time of `work` in seconds. Everything here runs on one thread, so on an idle machine this is the
-/// time that passes; on a busy one it is what the work itself costs.
+/// elapsed time; on a busy one it excludes the time of other processes.
 template <typename Function>
 double cpu_seconds_of(Function work)
 {
@@ -29,14 +25,6 @@ double cpu_seconds_of(Function work)
     work();
     return cpu_seconds() - start;
 }
-
-/// What rays of one kind cost, on average.
-struct RayCost {
-    double mrays_per_s = 0;
-    std::optional<double> relative_standard_error{}; // of mrays_per_s; none without rays
-    double nodes_per_ray = 0;
-    double primitives_per_ray = 0;
-};
 
 RayCost measure(const ref::Geometry& geometry, const std::vector<ref::Ray>& rays)
 {
@@ -49,16 +37,11 @@ RayCost measure(const ref::Geometry& geometry, const std::vector<ref::Ray>& rays
         for (const ref::Ray& ray : rays) hits += intersect(geometry, ray, &counts) ? 1 : 0;
     });
     if (hits > rays.size())
-        throw std::logic_error("more hits than rays"); // keeps the loop from being dropped
+        throw std::logic_error(
+            "more hits than rays"); // uses the hits, so that the loop is not optimised away
     const auto count = static_cast<double>(rays.size());
     return {count / timed.seconds * 1e-6, timed.relative_standard_error,
             static_cast<double>(counts.nodes) / count, static_cast<double>(counts.primitives) / count};
-}
-
-/// As JSON has it: null where there is none.
-nlohmann::json json_of(const std::optional<double>& number)
-{
-    return number ? nlohmann::json(*number) : nlohmann::json();
 }
 
 struct Rays {
@@ -100,30 +83,20 @@ double median_build_ms(const std::vector<ref::Aabb>& boxes, ref::Builder builder
 
 } // namespace
 
-nlohmann::json measure_builder(const scenes::Scene& scene, const NamedBuilder& named, const Size& size,
-                               int repeats)
+MeasuredBuilder measure_builder(const scenes::Scene& scene, const NamedBuilder& named, const Size& size,
+                                int repeats)
 {
     const std::vector<ref::Aabb> boxes = ref::primitive_bounds(scene);
     const ref::Geometry geometry(scene, named.builder);
-    const ref::Quality quality = ref::quality(geometry.tree());
     const Rays rays = make_rays(geometry, size);
     const RayCost camera = measure(geometry, rays.camera);
     const RayCost diffuse = measure(geometry, rays.diffuse);
-    return {{"name", named.name},
-            {"build_ms", median_build_ms(boxes, named.builder, repeats)},
-            {"sah_cost", quality.sah_cost},
-            {"depth", quality.depth},
-            {"mean_leaf_depth", quality.mean_leaf_depth},
-            {"overlap", quality.overlap},
-            {"nodes", geometry.tree().nodes.size()},
-            {"camera_mrays_per_s", camera.mrays_per_s},
-            {"camera_relative_standard_error", json_of(camera.relative_standard_error)},
-            {"camera_nodes_per_ray", camera.nodes_per_ray},
-            {"camera_primitives_per_ray", camera.primitives_per_ray},
-            {"diffuse_mrays_per_s", diffuse.mrays_per_s},
-            {"diffuse_relative_standard_error", json_of(diffuse.relative_standard_error)},
-            {"diffuse_nodes_per_ray", diffuse.nodes_per_ray},
-            {"diffuse_primitives_per_ray", diffuse.primitives_per_ray}};
+    return {named.name,
+            median_build_ms(boxes, named.builder, repeats),
+            ref::quality(geometry.tree()),
+            geometry.tree().nodes.size(),
+            camera,
+            diffuse};
 }
 
 } // namespace cli

@@ -1,22 +1,40 @@
 #pragma once
 
-// What a tree builder costs, and what its trees are worth.
+// Measures a tree builder of the reference: the time of a build, and what rays through its tree cost.
 
 #include "cli/builders.h"
 #include "cli/scene_input.h"
+#include "ref/trees/quality.h"
 #include "scenes/scene.h"
 
-#include <nlohmann/json_fwd.hpp>
+#include <cstddef>
+#include <optional>
+#include <string>
 
 namespace cli {
 
-/// Builds the tree `repeats` times, and sends a ray through the middle of each pixel of a picture of
-/// this size and one diffusely from where it hits: the entry of `plumbline bvh --json` for this builder.
-/// Rays of each kind are traced until the mean time is known to 2% (standard error of the mean of at
-/// least five repetitions) or a second has passed; "camera_relative_standard_error" and
-/// "diffuse_relative_standard_error" say what was reached (null if there were no rays). The scene must
-/// have a camera. CPU time, one thread.
-nlohmann::json measure_builder(const scenes::Scene& scene, const NamedBuilder& named, const Size& size,
-                               int repeats);
+/// Rays of one kind, on average. All zero without rays.
+struct RayCost {
+    double mrays_per_s = 0;                          // millions of rays per second of CPU time
+    std::optional<double> relative_standard_error{}; // of mrays_per_s; none without rays
+    double nodes_per_ray = 0;                        // visited
+    double primitives_per_ray = 0;                   // tested
+};
+
+/// One builder, measured on one scene.
+struct MeasuredBuilder {
+    std::string name;
+    double build_ms; // CPU time, the median of all builds
+    ref::Quality quality;
+    std::size_t nodes;
+    RayCost camera;  // a ray through the middle of each pixel
+    RayCost diffuse; // from where such a ray hits, in a cosine-distributed direction
+};
+
+/// Builds the tree `repeats` times, and traces camera and diffuse rays for a picture of this size. Rays
+/// of each kind are traced until the mean time is known to 2% (standard error of the mean of at least
+/// five repetitions) or a second has passed. The scene must have a camera. CPU time, one thread.
+MeasuredBuilder measure_builder(const scenes::Scene& scene, const NamedBuilder& named, const Size& size,
+                                int repeats);
 
 } // namespace cli

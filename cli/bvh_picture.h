@@ -1,6 +1,6 @@
 #pragma once
 
-// What a tree makes of a scene, seen by the scene's camera, which must be there.
+// Pictures of a tree, from the scene's camera. The scene must have one.
 
 #include "images/image.h"
 #include "ref/trees/geometry.h"
@@ -8,7 +8,7 @@
 namespace cli {
 
 /// The scene lit by a headlight, with the edges of all boxes at depth `level` of the tree (and of leaves
-/// above that depth): full colour where nothing hides them, faint where something does.
+/// above that depth): full colour where they are visible, faint where a surface hides them.
 images::Image draw_boxes(const ref::Geometry& geometry, int level, int width, int height);
 
 /// The scene lit by a headlight, each primitive in the colour of its piece when the list of leaves is

@@ -9,16 +9,13 @@
 #include "cuda/trees/sah_cost.h"
 #include "cuda/trees/scene_geometry.h"
 
-#include <nlohmann/json.hpp>
-
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstring>
-#include <iomanip>
-#include <iostream>
+#include <stdexcept>
 #include <utility>
 
 namespace cli {
@@ -63,11 +60,11 @@ std::size_t host_cache()
     return bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
 }
 
-/// The times of all builds, and what the trees are worth.
+/// The times of all builds, and the SAH costs of the trees.
 struct Timed {
     std::vector<Milliseconds> stages;
     double sah_cost = 0;
-    std::vector<double> clustering; // what hploc.h takes on top
+    std::vector<double> clustering; // ms, of cuda/trees/hploc.h
     double clustered_sah_cost = 0;
 };
 
@@ -102,7 +99,7 @@ std::vector<Milliseconds> time_on_device(const std::vector<fast::Aabb>& boxes, i
 {
     fast::DeviceLbvh tree(static_cast<std::uint32_t>(boxes.size()), code_bits);
     tree.build(boxes);
-    static_cast<void>(tree.download()); // rejects what is no box
+    static_cast<void>(tree.download()); // throws for an invalid box
     std::vector<Milliseconds> times(static_cast<std::size_t>(repeats));
     for (Milliseconds& stages : times) std::ranges::copy(tree.time_stages(), stages.begin());
     return times;
@@ -115,14 +112,17 @@ double median(std::vector<double> values)
     return *middle;
 }
 
-/// The entry of one builder. A bandwidth of 0 is not known.
-nlohmann::json report_of(const std::vector<Milliseconds>& times, std::uint32_t primitives, int code_bits,
-                         const fast::SortPasses& passes, double bandwidth, std::size_t cache)
+/// The memory that a build reads and writes.
+struct Memory {
+    double bytes_per_second; // 0: not known
+    std::size_t cache_bytes;
+};
+
+StagedBuild summarise_builds(const std::vector<Milliseconds>& times, std::uint32_t primitives,
+                             int code_bits, const fast::SortPasses& passes, const Memory& memory)
 {
-    nlohmann::json stages = nlohmann::json::array();
-    double total_ms = 0;
+    StagedBuild build{code_bits == 30 ? "morton30" : "morton63", {}};
     double total_bytes = 0;
-    bool plausible = true;
     for (std::size_t i = 0; i < fast::stage_names.size(); ++i) {
         std::vector<double> ms;
         for (const Milliseconds& one : times) ms.push_back(one[i]);
@@ -130,89 +130,65 @@ nlohmann::json report_of(const std::vector<Milliseconds>& times, std::uint32_t p
         const double bytes =
             fast::bytes_moved(static_cast<fast::Stage>(i), primitives, code_bits, passes);
         const double per_second = typical > 0 ? bytes / (1e-3 * typical) : 0;
-        nlohmann::json stage = {{"name", fast::stage_names[i]}, {"ms", typical}, {"bytes", bytes}};
-        if (bandwidth > 0) stage["percent_of_bandwidth"] = 100 * per_second / bandwidth;
-        if (bandwidth > 0 && per_second > bandwidth && bytes > 2 * static_cast<double>(cache))
-            plausible = false;
-        stages.push_back(stage);
-        total_ms += typical;
+        const double bandwidth = memory.bytes_per_second;
+        MeasuredStage stage{fast::stage_names[i], typical, bytes, std::nullopt};
+        if (bandwidth > 0) stage.percent_of_bandwidth = 100 * per_second / bandwidth;
+        if (bandwidth > 0 && per_second > bandwidth &&
+            bytes > 2 * static_cast<double>(memory.cache_bytes))
+            build.plausible = false;
+        build.stages.push_back(stage);
+        build.ms += typical;
         total_bytes += bytes;
     }
-    return {{"name", code_bits == 30 ? "morton30" : "morton63"},
-            {"stages", stages},
-            {"ms", total_ms},
-            {"bytes_per_primitive", primitives > 0 ? total_bytes / primitives : 0},
-            {"plausible", plausible}};
+    build.bytes_per_primitive = primitives > 0 ? total_bytes / primitives : 0;
+    return build;
+}
+
+void measure_on_device(MeasuredStages& report, const std::vector<fast::Aabb>& boxes, int repeats)
+{
+    const fast::Device found = fast::find_device();
+    if (!found.usable) throw std::runtime_error("--device cuda: " + found.description);
+    report.described = found.description;
+    report.bytes_per_second = found.bytes_per_second;
+    for (const int bits : {30, 63})
+        report.builders.push_back(summarise_builds(time_on_device(boxes, bits, repeats),
+                                                   report.primitives, bits, fast::passes_on_device(bits),
+                                                   {found.bytes_per_second, found.cache_bytes}));
+}
+
+void measure_on_host(MeasuredStages& report, const std::vector<fast::Aabb>& boxes, unsigned threads,
+                     int repeats)
+{
+    fast::ThreadedExecutor executor(threads);
+    const Memory memory{host_bandwidth(executor), host_cache()};
+    report.described = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+    report.bytes_per_second = memory.bytes_per_second;
+    for (const int bits : {30, 63}) {
+        const Timed timed = bits == 30 ? time_on_host<std::uint32_t>(executor, boxes, repeats)
+                                       : time_on_host<std::uint64_t>(executor, boxes, repeats);
+        report.builders.push_back(
+            summarise_builds(timed.stages, report.primitives, bits, fast::passes_on_host(bits), memory));
+        report.builders.back().host_trees = {timed.sah_cost, median(timed.clustering),
+                                             timed.clustered_sah_cost};
+    }
 }
 
 } // namespace
 
-nlohmann::json measure_stages(const scenes::Scene& scene, const std::string& device, unsigned threads,
+MeasuredStages measure_stages(const scenes::Scene& scene, const std::string& device, unsigned threads,
                               int repeats)
 {
     const std::vector<fast::Aabb> boxes = fast::boxes_of(scene);
-    const auto n = static_cast<std::uint32_t>(boxes.size());
-    nlohmann::json report = {{"scene", scene.name}, {"primitives", n}, {"device", device}};
-    nlohmann::json measured = nlohmann::json::array();
-    if (device == "cuda") {
-        const fast::Device found = fast::find_device();
-        if (!found.usable) throw std::runtime_error("--device cuda: " + found.description);
-        report["described"] = found.description;
-        report["bytes_per_second"] = found.bytes_per_second;
-        for (const int bits : {30, 63})
-            measured.push_back(report_of(time_on_device(boxes, bits, repeats), n, bits,
-                                         fast::passes_on_device(bits), found.bytes_per_second,
-                                         found.cache_bytes));
-    } else {
-        fast::ThreadedExecutor executor(threads);
-        const double bandwidth = host_bandwidth(executor);
-        report["described"] = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
-        report["bytes_per_second"] = bandwidth;
-        for (const int bits : {30, 63}) {
-            const Timed timed = bits == 30 ? time_on_host<std::uint32_t>(executor, boxes, repeats)
-                                           : time_on_host<std::uint64_t>(executor, boxes, repeats);
-            measured.push_back(
-                report_of(timed.stages, n, bits, fast::passes_on_host(bits), bandwidth, host_cache()));
-            measured.back()["sah_cost"] = timed.sah_cost;
-            measured.back()["hploc_ms"] = median(timed.clustering);
-            measured.back()["hploc_sah_cost"] = timed.clustered_sah_cost;
-        }
-    }
-    report["plausible"] = std::ranges::all_of(
-        measured, [](const nlohmann::json& builder) { return builder["plausible"].get<bool>(); });
-    report["builders"] = std::move(measured);
+    MeasuredStages report;
+    report.scene = scene.name;
+    report.primitives = static_cast<std::uint32_t>(boxes.size());
+    report.device = device;
+    if (device == "cuda")
+        measure_on_device(report, boxes, repeats);
+    else
+        measure_on_host(report, boxes, threads, repeats);
+    report.plausible = std::ranges::all_of(report.builders, &StagedBuild::plausible);
     return report;
-}
-
-void print_stages(const nlohmann::json& report)
-{
-    const auto bandwidth = report["bytes_per_second"].get<double>();
-    std::cout << std::fixed << report["scene"].get<std::string>() << ": " << report["primitives"]
-              << " primitives; " << report["device"].get<std::string>() << ", "
-              << report["described"].get<std::string>() << ", " << std::setprecision(1)
-              << bandwidth * 1e-9 << " GB/s\nbuilder   stage         ms   MB moved  % of bandwidth\n";
-    for (const nlohmann::json& builder : report["builders"]) {
-        for (const nlohmann::json& stage : builder["stages"]) {
-            std::cout << std::left << std::setw(10) << builder["name"].get<std::string>() << std::setw(7)
-                      << stage["name"].get<std::string>() << std::right << std::setprecision(3)
-                      << std::setw(9) << stage["ms"].get<double>() << std::setprecision(2)
-                      << std::setw(11) << stage["bytes"].get<double>() * 1e-6;
-            if (stage.contains("percent_of_bandwidth"))
-                std::cout << std::setprecision(1) << std::setw(16)
-                          << stage["percent_of_bandwidth"].get<double>();
-            std::cout << '\n';
-        }
-        std::cout << std::left << std::setw(10) << builder["name"].get<std::string>() << "all    "
-                  << std::right << std::setprecision(3) << std::setw(9) << builder["ms"].get<double>()
-                  << ", " << std::setprecision(0) << builder["bytes_per_primitive"].get<double>()
-                  << " bytes per primitive\n";
-        if (!builder.contains("sah_cost")) continue;
-        std::cout << std::setprecision(2) << "          SAH cost " << builder["sah_cost"].get<double>()
-                  << "; clustered (hploc) in " << builder["hploc_ms"].get<double>() << " ms more "
-                  << builder["hploc_sah_cost"].get<double>() << '\n';
-    }
-    if (!report["plausible"].get<bool>())
-        std::cout << "A stage claims to move more than the memory can: some figure is wrong.\n";
 }
 
 } // namespace cli

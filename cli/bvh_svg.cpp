@@ -59,7 +59,7 @@ private:
     std::ostringstream text_;
 };
 
-/// Bits from the top that tell all different codes apart, at least one.
+/// The number of leading bits that distinguish all different codes, at least one.
 int telling_bits(ref::Codes codes, int code_bits)
 {
     int longest = 0;
@@ -91,8 +91,7 @@ std::string radix_tree_figure(ref::Codes codes, std::span<const std::uint32_t> p
     const int bits = telling_bits(codes, code_bits);
     Svg svg;
 
-    // Where each node is drawn: internal node i above key i, one end of its range; leaves above their
-    // keys.
+    // Internal node i is drawn above key i, one end of its range; leaves above their keys.
     const auto x_of_node = [&](std::uint32_t node) {
         return x_of(node < n - 1 ? node : node - (n - 1));
     };

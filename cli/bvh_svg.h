@@ -1,7 +1,7 @@
 #pragma once
 
-// The figure by which Karras' construction is taught, drawn from data: sorted keys with their bits, the
-// range of every internal node and its split.
+// The figure of a radix tree as in [Karras 2012]: sorted keys with their bits, and the range and the
+// split of every internal node.
 
 #include "ref/trees/radix_tree.h"
 
@@ -10,12 +10,11 @@
 
 namespace cli {
 
-/// More keys than this do not fit a page.
+/// More keys do not fit a page.
 constexpr std::size_t most_keys_in_figure = 64;
 
-/// An SVG document for the radix tree over sorted `codes` of `code_bits` bits; `primitives` says to
-/// which primitive each belongs. Only as many bits are shown as are needed to tell different codes
-/// apart.
+/// An SVG document for the radix tree over sorted `codes` of `code_bits` bits; `primitives`: the
+/// primitive of each code. Only the leading bits that differ between codes are drawn.
 std::string radix_tree_figure(ref::Codes codes, std::span<const std::uint32_t> primitives,
                               int code_bits);
 

@@ -1,7 +1,9 @@
 #pragma once
 
-// The pattern of a subcommand: a function that adds it to the program, with its options and the work to
-// do when it is chosen. The work returns the exit status, or throws what is wrong.
+// The pattern of a subcommand X. X_command.h declares its options, a struct, and add_X_command, which
+// adds it to the program and, when it is chosen, sets the work to do. The work returns the exit status,
+// or throws an exception. X_options.cpp reads the options, X_command.cpp does the work, and its parts
+// are named after it: X_report.h, for example.
 
 #include <CLI/CLI.hpp>
 
@@ -11,16 +13,13 @@ namespace cli {
 
 enum ExitStatus {
     fine = 0,
-    check_failed = 1, // a comparison or a check said no
+    check_failed = 1, // a comparison or a check failed
     bad_input = 2,    // wrong usage, unreadable file, unwritable file
-    inconclusive = 3, // a comparison could not tell
-    interrupted = 130 // by Ctrl-C or SIGTERM, after what was done was kept; as shells say it
+    inconclusive = 3, // a comparison has no verdict
+    interrupted = 130 // by Ctrl-C or SIGTERM, as shells report it; finished work was kept
 };
 
-/// What the chosen subcommand does.
+/// The work of the chosen subcommand.
 using Work = std::function<ExitStatus()>;
-
-/// Each adds its subcommand to `program` and, when it is chosen, sets `work`.
-void add_render_command(CLI::App& program, Work& work);
 
 } // namespace cli

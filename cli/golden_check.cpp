@@ -1,8 +1,10 @@
-// `plumbline golden --verify` and `--list`.
+#include "cli/golden_check.h"
 
-#include "cli/golden.h"
+#include "cli/golden_mismatch.h"
+#include "cli/golden_render.h"
 #include "cli/interrupt.h"
-#include "cli/renderer.h"
+#include "cli/renderer_for.h"
+#include "cli/scene_input.h"
 #include "golden/compare.h"
 #include "scenes/read_scene.h"
 
@@ -21,8 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// `count` different numbers below `total`, ascending. Another draw every time: a check that always
-/// looks at the same places would be no check.
+/// `count` different numbers below `total`, ascending, drawn anew in every run, so that all batches are
+/// checked over time.
 std::vector<std::uint64_t> draw(std::uint64_t count, std::uint64_t total)
 {
     std::vector<std::uint64_t> all(total);
@@ -52,7 +54,7 @@ Outcome verify(const GoldenCommand& options, const std::string& file)
     const std::uint64_t pilot = total - reference;
     const bool everything = options.verify >= total;
     images::Film film(size.width, size.height);
-    // A pilot batch shows in the mean alone, so it takes all of them to check one.
+    // A batch of the pilot enters only the mean, which can be compared only if all are rendered.
     std::vector<std::uint64_t> chosen = draw(std::min(options.verify, reference), reference);
     for (std::uint64_t& batch : chosen) batch += pilot;
     if (everything) {

@@ -1,83 +1,58 @@
-// Is the golden that is there the one that is asked for?
+// The options of `plumbline golden`.
 
-#include "cli/golden.h"
-#include "images/image_error.h"
-#include "images/whole_number.h"
+#include "cli/golden_command.h"
+#include "cli/render_command.h"
 
-#include <cstdint>
-#include <string>
-#include <utility>
+#include <stdexcept>
 
 namespace cli {
 
-namespace {
-
-std::string say_size(int width, int height)
+void add_golden_options(CLI::App& command, GoldenCommand& options)
 {
-    return std::to_string(width) + "x" + std::to_string(height);
+    command.add_option("scenes", options.scenes, "COLLADA files");
+    CLI::Option* all = command.add_flag("--all", options.all, "All .dae files in the scene folder");
+    command.add_option("--scene-folder", options.scene_folder, "Folder of the scenes of --all")
+        ->needs(all)
+        ->capture_default_str();
+    command.add_option("--folder", options.folder, "Folder of the goldens")->capture_default_str();
+    command.add_option("--size", options.size, "Width x height in pixels")->capture_default_str();
+    command.add_option("-s,--samples", options.samples, "Samples per pixel, the pilot's included")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
+        ->capture_default_str();
+    command.add_option("--batch", options.batch_size, "Samples per pixel in a batch")
+        ->check(CLI::Range(1u, 1u << 20))
+        ->capture_default_str();
+    command
+        .add_option("--pilot", options.pilot_batches,
+                    "Batches from which weights and regions are computed, not compared")
+        ->check(CLI::Range(std::uint64_t{2}, std::uint64_t{1} << 20))
+        ->capture_default_str();
+    command.add_option("--max-edges", options.max_edges, "Longest path, the camera's edge counted")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    command.add_option("-t,--threads", options.threads, "Threads; the picture does not depend on them")
+        ->check(CLI::Range(1u, 1024u));
+    CLI::Option* watch =
+        command.add_option("--watch", options.watch, "Seconds between writes of an unfinished golden")
+            ->check(CLI::Range(0.0, 1e9))
+            ->capture_default_str();
+    CLI::Option* list = command.add_flag("--list", options.list, "List the goldens, make none");
+    list->excludes(watch);
+    command
+        .add_option("--verify", options.verify,
+                    "Render this many batches of each golden again and compare the bits")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
+        ->excludes(list, watch);
+    command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
 }
 
-/// Gathers what differs.
-class Differences {
-public:
-    /// `option`, if there is one, is what the value that is asked for was given by.
-    void compare(const std::string& name, const std::string& there, const std::string& asked,
-                 const std::string& option = "")
-    {
-        if (there == asked) return;
-        add("its " + name + " is " + (there.empty() ? "not said" : there) + ", not " +
-            (asked.empty() ? "left unsaid" : asked) + (option.empty() ? "" : " (" + option + ")"));
-    }
-    void add(const std::string& what) { text_ += (text_.empty() ? "" : "; ") + what; }
-    [[nodiscard]] const std::string& text() const { return text_; }
-
-private:
-    std::string text_;
-};
-
-/// One that is finished must have the samples; one in the making, no more than them.
-void compare_samples(const GoldenCommand& options, const FoundGolden& found, Differences& differences)
+void check(const GoldenCommand& options)
 {
-    const std::string there = value_of(found.metadata, "samples");
-    const std::string asked = std::to_string(options.samples);
-    const auto number = images::whole_number(there);
-    if (found.finished || !number)
-        differences.compare("number of samples", there, asked, "-s");
-    else if (*number > options.samples)
-        differences.add("it has " + there + " samples already, more than " + asked + " (-s)");
-}
-
-} // namespace
-
-void expect_made_so(const GoldenCommand& options, Ask ask, const FoundGolden& found,
-                    const images::Metadata& render_says)
-{
-    const bool all = ask == Ask::all_options;
-    const Size size = parse_size(options.size);
-    const GoldenCommand::Given& given = options.given;
-    const images::Metadata& there = found.metadata;
-    Differences differences;
-    if (all || given.size)
-        differences.compare("size", say_size(found.mean.width, found.mean.height),
-                            say_size(size.width, size.height), "--size");
-    if (all || given.batch_size)
-        differences.compare("batch_size", value_of(there, "batch_size"),
-                            std::to_string(options.batch_size), "--batch");
-    if (all || given.pilot_batches)
-        differences.compare("number of pilot batches", value_of(there, "golden.pilot_batches"),
-                            std::to_string(options.pilot_batches), "--pilot");
-    if (all || given.max_edges)
-        differences.compare("max_edges", value_of(there, "max_edges"), std::to_string(options.max_edges),
-                            "--max-edges");
-    if (all || given.samples) compare_samples(options, found, differences);
-    for (const auto& [key, value] : render_says)
-        // A golden stays until its picture is wrong, whatever the version.
-        if (key != "version" && key != "batch_size" && key != "max_edges")
-            differences.compare(key, value_of(there, key), value);
-    if (!differences.text().empty())
-        throw images::ImageError(found.path,
-                                 "is another golden: " + differences.text() +
-                                     ". Name another --folder, or remove the file to make it anew");
+    expect_whole_batches(options.samples, options.batch_size);
+    if (options.samples / options.batch_size <= options.pilot_batches)
+        throw std::invalid_argument("-s " + std::to_string(options.samples) + ": the pilot takes " +
+                                    std::to_string(options.pilot_batches * options.batch_size) +
+                                    " samples and leaves nothing to compare with");
 }
 
 } // namespace cli

@@ -14,7 +14,7 @@ namespace {
 struct Rule {
     const char* option;
     bool idle;          // whether it has no effect, if it was given
-    std::string beside; // what option makes it so, and why
+    std::string beside; // the option that is the cause, and the reason
 };
 
 std::vector<Rule> rules_for(const RenderCommand& options)
@@ -33,8 +33,7 @@ std::vector<Rule> rules_for(const RenderCommand& options)
         {"--threads", options.device == "cuda", with_device + "it is for the host's processor"},
         {"--exposure", !writes(".png") && !sheet,
          "without a .png: neither --output nor --strategies-picture names one"},
-        {"--unweighted", !layers,
-         "without --strategies or --strategies-picture: it says what they show"},
+        {"--unweighted", !layers, "without --strategies or --strategies-picture: it is for them"},
         {"--unweighted", options.integrator == "light", with_integrator + "all its weights are 1"},
         {"--keep-batches", !writes(".exr"), "without an .exr: --output names none"},
     };
@@ -47,15 +46,15 @@ std::vector<Rule> rules_for(const BvhCommand& options)
     const bool rays = picture || measures_builders(options);
     const bool times = !options.device.empty() || measures_builders(options);
     const std::string with_device = "with --device " + options.device + ": ";
-    // What else the command does when it sends no rays.
+    // The reason why no rays are traced.
     const std::string without_rays = options.device.empty()
                                          ? "with --tree: no picture is drawn and no ray is sent"
                                          : with_device + "no picture is drawn and no ray is sent";
     return {
         {"--builder", !options.device.empty() && !draws,
          with_device + "the fast path has trees of its own"},
-        {"--show", !picture, "without --picture: it says what that shows"},
-        {"--level", !picture, "without --picture: it says which boxes that shows"},
+        {"--show", !picture, "without --picture: it is for that picture"},
+        {"--level", !picture, "without --picture: it is for that picture"},
         {"--level", options.show != "boxes", "with --show " + options.show + ": it is for boxes"},
         {"--size", !rays, without_rays},
         {"--frame", !rays, without_rays},

@@ -1,11 +1,17 @@
 #pragma once
 
+// Interruption by Ctrl-C or SIGTERM.
+
 namespace cli {
 
-/// Makes Ctrl-C (SIGINT) and SIGTERM ask for an orderly end; a second one ends the program at once.
+/// From now on Ctrl-C (SIGINT) and SIGTERM request an orderly end; a second one ends the program at
+/// once.
 void catch_interrupts();
 
-/// Whether an orderly end has been asked for. May be called from any thread.
+/// Whether an orderly end was requested. May be called from any thread.
 bool interrupt_requested();
+
+/// Thrown by work that was interrupted before there was anything to keep.
+struct Interrupted {};
 
 } // namespace cli

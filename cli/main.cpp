@@ -1,11 +1,12 @@
 // The program: chooses the subcommand, and turns every error into one line and an exit status.
 
-#include "cli/bvh.h"
-#include "cli/candidate.h"
+#include "cli/bvh_command.h"
 #include "cli/command.h"
-#include "cli/compare.h"
+#include "cli/compare_command.h"
 #include "cli/counts.h"
-#include "cli/golden.h"
+#include "cli/golden_command.h"
+#include "cli/interrupt.h"
+#include "cli/render_command.h"
 #include "cli/standard_output.h"
 #include "cuda/launch/device.h"
 
@@ -16,7 +17,7 @@
 
 namespace {
 
-/// One line for a person: what CLI11 says beyond the first line is how to get help.
+/// Prints one line: further lines of CLI11's messages only describe --help.
 int complain(std::string_view message)
 {
     std::cerr << "plumbline: " << message.substr(0, message.find('\n')) << '\n';
@@ -28,7 +29,7 @@ std::string where_help_is(const CLI::App& program)
 {
     const auto chosen = program.get_subcommands();
     const std::string command = chosen.empty() ? "" : chosen.front()->get_name() + " ";
-    return " (plumbline " + command + "--help lists what there is)";
+    return " (plumbline " + command + "--help lists the options)";
 }
 
 /// Reads the command line and does the work. The exit status.
@@ -40,7 +41,7 @@ int run(CLI::App& program, const cli::Work& work, int argc, char** argv)
     } catch (const CLI::Success& help) {
         return program.exit(help);
     } catch (const CLI::RequiredError& error) {
-        // CLI11 says what is missing, not which word it did not know.
+        // CLI11's message does not contain the unknown word.
         const std::string_view word = argc > 1 ? argv[1] : "-";
         if (program.get_subcommands().size() == 1)
             return complain(error.what() + where_help_is(program));
@@ -62,7 +63,7 @@ int run(CLI::App& program, const cli::Work& work, int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-    // A file that outgrows a limit is an error of the write, to be told as one.
+    // A file that exceeds a limit is then an error of the write, which is reported.
     std::signal(SIGXFSZ, SIG_IGN);
     cli::expect_closed_pipes();
     CLI::App program("Plumbline: a reference for tree builders and bidirectional path tracers",
@@ -71,7 +72,7 @@ int main(int argc, char** argv)
         "--version", [] { return "plumbline " PLUMBLINE_VERSION "\nGPU: " + fast::describe_device(); });
     program.require_subcommand(1);
     program.footer(
-        "Exit status: 0 fine, 1 a check says no, 2 bad input, 3 cannot tell, 130 interrupted.");
+        "Exit status: 0 success, 1 a check failed, 2 bad input, 3 inconclusive, 130 interrupted.");
     cli::Work work;
     cli::add_render_command(program, work);
     cli::add_bvh_command(program, work);
@@ -83,5 +84,5 @@ int main(int argc, char** argv)
     if (cli::flush_standard_output()) return status;
     complain("standard output cannot be written");
     return status == cli::fine ? cli::bad_input
-                               : status; // a verdict stands, and so does an interruption
+                               : status; // keep the status of a verdict or an interruption
 }

@@ -9,8 +9,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The path without symbolic links and dots, as far as it exists. A path that cannot be looked at,
-/// because a folder on the way is closed or missing, stays as it is: the write will say what is wrong.
+/// The path without symbolic links and dots, as far as it exists. A path with a folder that is missing
+/// or not readable stays as it is: the write reports the error.
 fs::path resolved(const fs::path& path)
 {
     std::error_code error;

@@ -1,6 +1,7 @@
 #pragma once
 
-// Two files of one name: the later write would replace the earlier one without a word.
+// Checks that the files of a command are different: of two outputs with one name the second would
+// replace the first.
 
 #include <filesystem>
 #include <string>
@@ -10,7 +11,7 @@ namespace cli {
 
 /// A file that a command reads or writes.
 struct NamedFile {
-    std::string option; // that names it on the command line, or what it is: "-o", "scene"
+    std::string option; // of the command line, or a description: "-o", "the scene"
     std::filesystem::path path;
 };
 

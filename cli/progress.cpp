@@ -16,7 +16,7 @@ Progress::Progress(std::string what, double from, double total, bool quiet)
 
 Progress::~Progress()
 {
-    if (shown_) std::fputs("\r\033[K", stderr); // leaves the line to whoever writes next
+    if (shown_) std::fputs("\r\033[K", stderr); // clears the line for the next output
 }
 
 void Progress::update(double done)

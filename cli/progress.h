@@ -5,17 +5,17 @@
 
 namespace cli {
 
-/// A line on stderr that says how far a long piece of work has come and how long it will still take.
+/// A line on stderr with the progress of a long piece of work and the time left.
 /// Silent unless stderr is a terminal. Not for concurrent use.
 class Progress {
 public:
-    /// `what` names the work; `from` of `total` units were done before it began.
+    /// `what`: the name of the work; `from` of its `total` units were done before.
     Progress(std::string what, double from, double total, bool quiet);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// `done` of the total units are done now. Cheap: writes a few times a second at most.
+    /// `done` of the total units are done now. Writes at most five times a second.
     void update(double done);
 
 private:
@@ -28,7 +28,7 @@ private:
     Clock::time_point last_ = start_;
 };
 
-/// A duration as a person says it: "42 s", "3 min 05 s", "2 h 07 min".
+/// A duration in words: "42 s", "3 min 05 s", "2 h 07 min".
 std::string say_duration(double seconds);
 
 } // namespace cli

@@ -1,7 +1,10 @@
-#include "cli/render_options.h"
+// The options of `plumbline render`, and which of them exclude each other.
+
+#include "cli/render_command.h"
 
 #include "cli/builders.h"
 #include "cli/output_files.h"
+#include "cli/scene_input.h"
 #include "images/whole_number.h"
 #include "images/write_image.h"
 
@@ -23,16 +26,97 @@ const std::map<std::string, images::Heuristic> heuristics = {{"balance", images:
 /// Each is a picture in memory and in the file.
 constexpr std::uint64_t most_batches_kept = 1024;
 
-/// A check that the help page does not repeat: the option's own text names them.
+/// A check without a text of its own on the help page, as the option's text names the words.
 CLI::Validator one_of(const std::vector<std::string>& words)
 {
     return CLI::IsMember(words).description("");
 }
 
-/// CLI11 takes "-1" for 2^64 - 1, and what is larger for that too.
+/// Needed because CLI11 reads "-1" and numbers above 2^64 - 1 as 2^64 - 1.
 std::string expect_seed(const std::string& text)
 {
     return images::whole_number(text) ? "" : "expected a whole number from 0 to 2^64 - 1, not " + text;
+}
+
+/// The scene, the files to write, and how many samples they hold.
+void add_picture_options(CLI::App& command, RenderCommand& options)
+{
+    command.add_option("scene", options.scene, "COLLADA file; -: standard input")->required();
+    command.add_option("-o,--output", options.outputs, "Picture: .exr, .pfm or .png; may be repeated")
+        ->required();
+    command.add_option("--size", options.size, "Width x height in pixels")->capture_default_str();
+    command
+        .add_option("-s,--samples", options.samples,
+                    "Samples per pixel, those of an earlier render included")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
+        ->capture_default_str();
+    command
+        .add_option("--batch", options.batch_size,
+                    "Samples in a batch, unit of error and resuming [up to 4, dividing -s]")
+        ->check(CLI::Range(1u, 1u << 20));
+}
+
+/// The processor that renders.
+void add_device_options(CLI::App& command, RenderCommand& options)
+{
+    command
+        .add_option("-t,--threads", options.threads,
+                    "Threads, not for cuda; the picture does not depend on them")
+        ->check(CLI::Range(1u, 1024u))
+        ->capture_default_str();
+    command
+        .add_option("--device", options.device,
+                    "ref: the reference; or the fast path in floats, on host or cuda")
+        ->check(one_of({"ref", "host", "cuda"}))
+        ->capture_default_str();
+    command.add_flag("--deterministic", options.deterministic,
+                     "The fast path gives the same bits every time; ref always does");
+}
+
+/// The estimator, and its random numbers.
+void add_integrator_options(CLI::App& command, RenderCommand& options)
+{
+    command.add_option("--integrator", options.integrator, "path, bdpt (bidirectional) or light")
+        ->check(one_of({"path", "bdpt", "light"}))
+        ->capture_default_str();
+    command
+        .add_option("--builder", options.builder,
+                    "Tree of ref: morton30, morton63, sah or sah-leaf; changes no bit")
+        ->check(one_of(builder_names()))
+        ->capture_default_str();
+    command.add_option("--heuristic", options.heuristic, "Weights of bdpt: balance or power")
+        ->check(one_of({"balance", "power"}))
+        ->capture_default_str();
+    command
+        .add_option("--max-edges", options.max_edges,
+                    "Longest path, the camera's edge counted [no limit]")
+        ->check(CLI::Range(1, 1 << 20));
+    command.add_flag("--no-roulette", options.no_roulette, "No Russian roulette");
+    command.add_option("--seed", options.seed, "Seed of the random numbers")
+        ->check(expect_seed)
+        ->capture_default_str();
+}
+
+/// The camera, the outputs and the messages.
+void add_output_options(CLI::App& command, RenderCommand& options)
+{
+    command.add_option("--exposure", options.exposure, "For .png: brighten the picture, in stops")
+        ->check(CLI::Range(-64.0, 64.0))
+        ->capture_default_str();
+    command.add_flag("--frame", options.frame, "Move the camera back until the whole scene is visible");
+    command.add_flag("--resume", options.resume, "Continue the render in the .exr output, if it exists");
+    command
+        .add_option("--watch", options.watch, "Seconds between writes of the outputs while rendering")
+        ->check(CLI::Range(0.0, 1e9).description(""));
+    command.add_option("--strategies", options.strategies, "One layer per strategy (s,t), to this .exr");
+    command.add_option("--strategies-picture", options.strategies_picture,
+                       "The sheet of all strategies, to this .png");
+    command.add_flag("--unweighted", options.unweighted, "Each strategy as if it were the only one");
+    command.add_flag("--keep-batches", options.keep_batches,
+                     "Keep each batch as a layer of the .exr outputs, for compare");
+    command.add_flag("--json", options.json,
+                     "Print one JSON object: time, samples, mean and its error, kernel");
+    command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
 }
 
 /// Throws unless each file can be written and is no other file of this command.
@@ -54,68 +138,11 @@ void check_files(const RenderCommand& options)
 
 void add_render_options(CLI::App& command, RenderCommand& options)
 {
-    command.add_option("scene", options.scene, "COLLADA file; -: standard input")->required();
-    command.add_option("-o,--output", options.outputs, "Picture: .exr, .pfm or .png; may be repeated")
-        ->required();
-    command.add_option("--size", options.size, "Width x height in pixels")->capture_default_str();
-    command.add_option("-s,--samples", options.samples, "Samples per pixel in the end")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
-        ->capture_default_str();
-    command
-        .add_option("--batch", options.batch_size,
-                    "Samples in a batch, unit of error and resuming [up to 4, dividing -s]")
-        ->check(CLI::Range(1u, 1u << 20));
-    command
-        .add_option("-t,--threads", options.threads,
-                    "Threads, not for cuda; the picture does not depend on them")
-        ->check(CLI::Range(1u, 1024u))
-        ->capture_default_str();
-    command
-        .add_option("--device", options.device,
-                    "ref: the reference; or the fast path in floats, on host or cuda")
-        ->check(one_of({"ref", "host", "cuda"}))
-        ->capture_default_str();
-    command.add_flag("--deterministic", options.deterministic,
-                     "The fast path gives the same bits every time; ref always does");
-    command.add_option("--integrator", options.integrator, "path, bdpt (bidirectional) or light")
-        ->check(one_of({"path", "bdpt", "light"}))
-        ->capture_default_str();
-    command
-        .add_option("--builder", options.builder,
-                    "Tree of ref: morton30, morton63, sah or sah-leaf; changes no bit")
-        ->check(one_of(builder_names()))
-        ->capture_default_str();
-    command.add_option("--heuristic", options.heuristic, "Weights of bdpt: balance or power")
-        ->check(one_of({"balance", "power"}))
-        ->capture_default_str();
-    command
-        .add_option("--max-edges", options.max_edges,
-                    "Longest path, the camera's edge counted [no limit]")
-        ->check(CLI::Range(1, 1 << 20));
-    command.add_flag("--no-roulette", options.no_roulette, "Never end a path by chance");
-    command.add_option("--seed", options.seed, "Another seed, another noise")
-        ->check(expect_seed)
-        ->capture_default_str();
-    command
-        .add_option("--exposure", options.exposure, "For .png: stops that the picture is brightened by")
-        ->check(CLI::Range(-64.0, 64.0))
-        ->capture_default_str();
-    command.add_flag("--frame", options.frame, "Move the camera back to where it sees the whole scene");
-    command.add_flag("--resume", options.resume,
-                     "Go on from the samples in the .exr output, if it is there");
-    command
-        .add_option("--watch", options.watch,
-                    "Rewrite the outputs every so many seconds while rendering")
-        ->check(CLI::Range(0.0, 1e9).description(""));
-    command.add_option("--strategies", options.strategies, "One layer per strategy (s,t), to this .exr");
-    command.add_option("--strategies-picture", options.strategies_picture,
-                       "The sheet of all strategies, to this .png");
-    command.add_flag("--unweighted", options.unweighted, "Strategies as if each were the only one");
-    command.add_flag("--keep-batches", options.keep_batches,
-                     "Keep each batch as a layer of the .exr outputs: compare judges by them");
-    command.add_flag("--json", options.json,
-                     "Print one JSON object: time, samples, mean and its error, kernel");
-    command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
+    // In the order of the help page.
+    add_picture_options(command, options);
+    add_device_options(command, options);
+    add_integrator_options(command, options);
+    add_output_options(command, options);
 }
 
 void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size)

@@ -1,7 +1,7 @@
 #include "cli/render_report.h"
 
 #include "cli/resources.h"
-#include "scenes/emission.h"
+#include "scenes/is_emitter.h"
 #include "scenes/requirements.h"
 
 #include <glm/exponential.hpp>
@@ -41,7 +41,7 @@ Json requirements_json(const scenes::Scene& scene)
             {"fov_axes", names(required.fov_axes)}};
 }
 
-/// What the kernel can do besides triangles and Lambertian surfaces.
+/// The features of the kernel besides triangles and Lambertian surfaces.
 Json kernel_json(const std::optional<fast::Needs>& kernel)
 {
     if (!kernel) return nullptr;

@@ -1,8 +1,8 @@
 #pragma once
 
-// What `plumbline render --json` says.
+// The JSON and the warnings of `plumbline render`.
 
-#include "cli/render_options.h"
+#include "cli/render_command.h"
 #include "cuda/transport/needs.h"
 #include "images/dropped.h"
 #include "images/film.h"
@@ -15,15 +15,15 @@
 namespace cli {
 
 /// The mean of the whole picture over the batches of a run, with its standard error. A film's standard
-/// errors cannot be added up to that: what light walks splat makes pixels vary together.
+/// errors per pixel do not give it, as splats of light walks make pixels depend on each other.
 class PictureMean {
 public:
     /// Adds the mean per pixel of one batch. All batches have as many samples and are independent.
     void add_batch(const images::Image& batch);
 
-    /// Standard error, per channel, of the mean of a picture of `batches` batches. If an earlier run
-    /// rendered some of them, they are taken to scatter as those do that were added here. None if fewer
-    /// than two were added: one batch says nothing of how they scatter.
+    /// Standard error, per channel, of the mean of a picture of `batches` batches. Batches of an
+    /// earlier run are assumed to have the variance of those added here. None if fewer than two were
+    /// added.
     [[nodiscard]] std::optional<images::Rgb> standard_error(std::uint64_t batches) const;
 
 private:
@@ -33,7 +33,7 @@ private:
 /// The mean over all pixels.
 images::Rgb mean_of(const images::Image& image);
 
-/// What a run of `plumbline render` did.
+/// The results of a run of `plumbline render`.
 struct RenderRun {
     const scenes::Scene& scene;
     const images::Film& film;
@@ -45,11 +45,11 @@ struct RenderRun {
     double cpu_seconds;
 };
 
-/// Whether every pixel is 0 as a float, though something in the scene shines.
+/// Whether every pixel is 0 as a float although the scene has an emitter.
 bool is_unexpectedly_black(const scenes::Scene& scene, const images::Image& picture);
 
-/// What a person must know to trust the picture, a line each: contributions that were left out, and a
-/// picture that is black though the scene has emitters.
+/// Warnings, a line each: contributions that were left out, and a picture that is black although the
+/// scene has emitters.
 std::vector<std::string> warnings(const RenderRun& run);
 
 /// One JSON object in one line, without a line break at its end. Numbers that are not finite are null.

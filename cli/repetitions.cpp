@@ -7,7 +7,7 @@ namespace cli {
 
 namespace {
 
-constexpr std::uint32_t most_times = 1 << 20; // should the clock stand still
+constexpr std::uint32_t most_times = 1 << 20; // if the clock stands still
 
 /// Mean and scatter of numbers that come one by one [Welford 1962].
 class Mean {

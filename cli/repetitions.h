@@ -1,6 +1,6 @@
 #pragma once
 
-// How long something takes, measured as often as a stated precision asks for.
+// Measures a time, with repetitions until a stated precision is reached.
 
 #include <functional>
 
@@ -9,7 +9,7 @@ namespace cli {
 /// When to stop measuring.
 struct Precision {
     double relative = 0.02;  // standard error of the mean over the mean
-    int fewest = 5;          // repetitions, before the scatter is believed
+    int fewest = 5;          // repetitions at least, as few values have no reliable scatter
     double most_seconds = 1; // of all repetitions; then two are enough
     double shortest = 0.001; // seconds of one repetition: work that takes less is done several times
 };
@@ -21,9 +21,9 @@ struct Repetitions {
 };
 
 /// Does `work` again and again, timed by `now` (seconds, never backwards), until the mean is as precise
-/// as asked for, and returns the mean. The first repetition, which finds how often the work fits into
+/// as required, and returns the mean. The first repetition, which finds how often the work fits into
 /// `shortest` and fills the caches, does not count. The standard error is computed as if repetitions
-/// were independent; a machine that slows down for longer than all of them is not seen.
+/// were independent; a slowdown that lasts for all of them is not detected.
 Repetitions repeat_until_precise(const std::function<double()>& now, const std::function<void()>& work,
                                  const Precision& precision = {});
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What this process has used so far.
+// CPU time and memory of this process so far.
 
 #include <sys/resource.h>
 

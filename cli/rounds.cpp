@@ -49,7 +49,7 @@ std::vector<std::vector<double>> measure_in_rounds(std::size_t rounds, std::mt19
 
 std::string to_text(const Measured& measured)
 {
-    // Decimals behind the point so that the half width has two digits; a mean of hundreds has none.
+    // So many decimals that the half width has two digits; none if it is above 10.
     const double exponent =
         measured.half_width > 0.0 ? std::floor(std::log10(measured.half_width)) : -2.0;
     const int decimals = std::clamp(1 - static_cast<int>(exponent), 0, 12);

@@ -1,8 +1,8 @@
 #pragma once
 
-// Measurements on a machine with other work on it: all that is compared is measured in every round, in
-// an order that is drawn anew, so that the changing load falls on all alike; how much the rounds differ
-// says how exact the result is.
+// Measurements on a machine with other load. Every quantity is measured once in every round, in an order
+// that is drawn anew, so that changes of the load affect all of them equally. The scatter of the rounds
+// gives the error.
 
 #include <cstddef>
 #include <functional>
@@ -29,12 +29,12 @@ struct Ratio {
     [[nodiscard]] bool decided() const { return low > 1.0 || high < 1.0; }
 };
 
-/// The geometric mean of a[i] / b[i] over the rounds i, and Student's interval of its logarithm: what
-/// makes a whole round slower or faster cancels. Throws std::invalid_argument for fewer than two rounds,
+/// The geometric mean of a[i] / b[i] over the rounds i, and Student's interval of its logarithm: a
+/// factor that is common to a round cancels. Throws std::invalid_argument for fewer than two rounds,
 /// for values that are not positive, and for `a` and `b` of different lengths.
 Ratio ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b);
 
-/// A piece of work, told the number of its round; returns what was measured.
+/// Does the work of one round, of the given number, and returns the measured value.
 using Measurement = std::function<double(std::size_t round)>;
 
 /// Makes every measurement once in every round, in an order drawn anew from `random`. The values by

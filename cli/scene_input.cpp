@@ -41,10 +41,10 @@ void expect_ending(const std::string& path, const std::string& option, const std
 
 namespace {
 
-/// What stands for a file and means standard input.
+/// The file name that means standard input.
 constexpr const char* standard_input = "-";
 
-/// The COLLADA file, or what standard input holds. Throws scenes::SceneError.
+/// Reads the COLLADA file, or standard input. Throws scenes::SceneError.
 scenes::Scene read_collada(const std::string& file, scenes::Parts parts)
 {
     if (file != standard_input) return scenes::read_scene(file, parts);
@@ -71,7 +71,7 @@ void print_notices(const scenes::Scene& scene, const std::string& file)
         std::cerr << shown_name(file) << ": " << notice << '\n';
 }
 
-/// Throws std::invalid_argument for a file name whose ending promises a format that is not read.
+/// Throws std::invalid_argument for a file name with the ending of a format that is not supported.
 void expect_triangles(const std::string& file)
 {
     const std::string ending = std::filesystem::path(file).extension().string();

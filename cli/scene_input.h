@@ -1,6 +1,6 @@
 #pragma once
 
-// What the subcommands that read a scene have in common: the scene, the size of the picture, file names.
+// Input of the subcommands that read a scene: the scene, the size of the picture, file names.
 
 #include "scenes/scene.h"
 
@@ -23,14 +23,14 @@ void expect_ending(const std::string& path, const std::string& option, const std
 /// `file` as messages name it: "-", which is standard input, is "<stdin>".
 std::string shown_name(const std::string& file);
 
-/// The scene in the COLLADA file `file`, or in standard input for "-" (its name is then "stdin"). It has
-/// a camera for certain: its own, moved back to see the whole scene if `frame`, or without one that of
-/// scenes::add_camera. Tells what a person should know about it on stderr, unless `quiet`. Throws
+/// The scene in the COLLADA file `file`, or in standard input for "-" (its name is then "stdin"). It
+/// always has a camera: its own, moved back until the whole scene is visible if `frame`, or else that of
+/// scenes::add_camera. Prints notices to stderr, unless `quiet`. Throws
 /// scenes::SceneError or std::invalid_argument.
 scenes::Scene load_scene(const std::string& file, bool frame, bool quiet);
 
-/// The same for a tree, which needs triangles and spheres and nothing else: no lights and no materials
-/// are read (scenes::Parts::geometry), and the file may also be one that scenes::read_mesh reads.
+/// The same for a tree, with triangles and spheres only: no lights and no materials are read
+/// (scenes::Parts::geometry). The file may also be one of the formats of scenes::read_mesh.
 scenes::Scene load_triangles(const std::string& file, bool frame, bool quiet);
 
 } // namespace cli

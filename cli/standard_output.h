@@ -1,14 +1,14 @@
 #pragma once
 
-// Whether what was printed has arrived: a pipe may be closed and a disk full.
+// Errors of standard output, such as a closed pipe or a full disk.
 
 namespace cli {
 
-/// Makes a closed pipe an error of the write, to be told as one, and not the end of the process. Call it
-/// before anything is printed.
+/// From now on a closed pipe is an error of the write and does not end the process. Call it before
+/// anything is printed.
 void expect_closed_pipes();
 
-/// Hands over what was printed to std::cout and stdout. Whether all of it has arrived so far.
+/// Flushes std::cout and stdout. Returns whether everything so far was written.
 bool flush_standard_output();
 
 } // namespace cli

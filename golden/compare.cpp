@@ -1,5 +1,7 @@
 #include "golden/compare.h"
 
+#include "golden/false_alarm.h"
+#include "golden/judge.h"
 #include "golden/reason.h"
 #include "golden/verdict.h"
 
@@ -15,12 +17,12 @@ namespace {
 double largest_of(const std::array<double, channel_count>& errors)
 {
     double largest = 0.0;
-    for (const double error : errors) largest = std::fmax(largest, error); // passes over NaN
+    for (const double error : errors) largest = std::fmax(largest, error); // ignores NaN
     return largest;
 }
 
-/// A golden of so many times the batches would leave half of the variance that is allowed to the
-/// candidate, if the difference of two means is normally distributed: ranks need 3 / pi times as many.
+/// The factor by which the golden's batches must grow so that its variance is half of what is allowed
+/// to the difference. By t tests; ranks need 3 / pi times as many batches for normal noise.
 double golden_needed(const Golden& golden, const CompareOptions& options)
 {
     double factor = 1.0;
@@ -33,7 +35,8 @@ double golden_needed(const Golden& golden, const CompareOptions& options)
     return factor;
 }
 
-/// The same as summarise_reach for ranks, of which no formula tells what more batches would show.
+/// Fills in golden_limit and shortfall for ranks, by search: there is no formula for the error that more
+/// batches make detectable.
 void reach_by_ranks(Comparison& comparison, const Golden& golden, const CompareOptions& options)
 {
     constexpr std::uint64_t beyond_count = std::uint64_t{1} << 50;
@@ -76,59 +79,25 @@ Comparison first_stage(const Golden& golden, const Candidate& candidate, Method 
     const Judge judge(golden, method, options);
     for (std::size_t c = 0; c < channel_count; ++c)
         for (std::size_t f = 0; f < golden.functionals.size(); ++f)
-            if (judge.looks_at(f)) comparison.findings.push_back(judge.judge(candidate.rows(), f, c));
+            if (judge.can_test(f)) comparison.findings.push_back(judge.judge(candidate.rows(), f, c));
     summarise(comparison);
     if (method == Method::ranks)
         reach_by_ranks(comparison, golden, options);
     else
         summarise_reach(comparison, golden, options);
-    // Of how many samples pictures of another estimator are is not known; of one of a batch at least.
+    // The samples of a picture of another estimator are not known, but each has at least one.
     const double batches = method == Method::ranks ? comparison.candidate_batches
                            : comparison.batch_size > 0.0
                                ? comparison.candidate_batches / comparison.batch_size
                                : 0.0;
-    comparison.odd = odd_pixels(golden, candidate.film().mean(), batches, options.dark);
-    comparison.stages.push_back({candidate.batches(), comparison.p, options.accuse});
-    comparison.false_alarm = options.convict + options.dark; // unless further stages are planned
+    comparison.odd = odd_pixels(golden, candidate.film().mean(), batches, options.dark_level);
+    comparison.stages.push_back({candidate.batches(), comparison.p, options.suspicion_level});
+    comparison.false_alarm =
+        options.certainty_level + options.dark_level; // unless further stages are planned
     return comparison;
 }
 
 } // namespace
-
-Candidate::Candidate(const Functionals& functionals)
-    : functionals_(&functionals), film_(functionals.width(), functionals.height())
-{}
-
-void Candidate::add_batch(const images::Image& batch)
-{
-    rows_.push_back(functionals_->evaluate(batch));
-    film_.add_batch(batch);
-}
-
-const Finding& whole_picture(const Comparison& comparison, std::size_t channel)
-{
-    const auto found =
-        std::find_if(comparison.findings.begin(), comparison.findings.end(), [&](const Finding& f) {
-            return f.channel == channel && f.region.kind == RegionKind::whole &&
-                   f.weight == Weight::plain;
-        });
-    if (found == comparison.findings.end()) throw std::invalid_argument("no such channel");
-    return *found;
-}
-
-TileMap tile_map(const Comparison& comparison, std::size_t channel)
-{
-    TileMap map;
-    for (const Finding& f : comparison.findings) {
-        if (f.channel != channel || f.region.kind != RegionKind::fine_tile ||
-            f.weight != Weight::matched)
-            continue;
-        if (f.region.y0 == 0) ++map.columns;
-        map.z.push_back(f.conclusive ? f.test.z : std::numeric_limits<double>::quiet_NaN());
-    }
-    if (map.columns > 0) map.rows = static_cast<int>(map.z.size()) / map.columns;
-    return map;
-}
 
 void check_comparable(const Golden& golden, const images::Metadata& candidate, Method method)
 {
@@ -158,7 +127,7 @@ Comparison compare(const Golden& golden, const Candidate& candidate, Method meth
     if (decide_at_once(comparison, options)) return comparison;
     comparison.verdict = Verdict::inconclusive;
     give_reason(comparison, "Suspicious: " + say_suspicion(comparison) + ". One right picture in " +
-                                say(1.0 / options.accuse, 3) +
+                                say(1.0 / options.suspicion_level, 3) +
                                 " looks so: a fresh render must confirm or clear it.");
     return comparison;
 }
@@ -170,7 +139,7 @@ std::array<double, 3> detectable_error(const Golden& golden, std::uint64_t batch
     std::array<double, 3> detectable{};
     detectable.fill(std::numeric_limits<double>::quiet_NaN());
     for (std::size_t channel = 0; channel < channel_count; ++channel)
-        for (std::size_t f = 0; f < weights.size(); ++f) // those of region 0, the whole picture
+        for (std::size_t f = 0; f < weights.size(); ++f) // of region 0, the whole picture
             detectable[channel] = std::fmin(detectable[channel],
                                             judge.detectable(f, channel, static_cast<double>(batches)));
     return detectable;
@@ -184,7 +153,7 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
     render(0, options.stages[0], first);
     Comparison comparison = first_stage(golden, first, method, options);
     comparison.false_alarm =
-        options.dark +
+        options.dark_level +
         false_alarm_bound(golden.functionals, method, golden.reference.size(), options.stages, options);
     if (decide_at_once(comparison, options, options.stages.size() > 1)) return comparison;
 
@@ -195,11 +164,11 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
         render(stage, options.stages[stage], fresh);
         const Finding again = judge.judge(fresh.rows(), suspicion.functional, suspicion.channel);
         const double p = again.conclusive ? one_sided(again.test, suspicion.test.z) : 1.0;
-        comparison.stages.push_back({fresh.batches(), p, options.confirm});
-        if (p >= options.confirm) {
-            acquit(comparison, options,
-                   " (" + say_suspicion(comparison) +
-                       "; a fresh render did not confirm it, p = " + say(p, 2) + ".)");
+        comparison.stages.push_back({fresh.batches(), p, options.confirmation_level});
+        if (p >= options.confirmation_level) {
+            pass_or_inconclusive(comparison, options,
+                                 " (" + say_suspicion(comparison) +
+                                     "; a fresh render did not confirm it, p = " + say(p, 2) + ".)");
             return comparison;
         }
     }
@@ -207,7 +176,7 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
         give_reason(comparison,
                     "Suspicious: " + say_suspicion(comparison) + ", and no stage to confirm it.");
     else
-        convict(comparison, "; confirmed on a fresh render, p = " + say(comparison.stages.back().p, 2));
+        fail(comparison, "; confirmed on a fresh render, p = " + say(comparison.stages.back().p, 2));
     return comparison;
 }
 

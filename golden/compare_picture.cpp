@@ -1,6 +1,7 @@
 // A single picture of unknown noise.
 
 #include "golden/compare.h"
+#include "golden/judge.h"
 #include "golden/reason.h"
 #include "golden/verdict.h"
 
@@ -12,19 +13,19 @@ namespace golden {
 
 namespace {
 
-/// The noise of a linear functional of a picture as its own pixels tell it.
+/// The noise of a linear functional of a picture, measured from the scatter of its pixels.
 struct Scatter {
-    double variance;        // of the functional, by the picture's noise alone; by chance it may be < 0
+    double variance;        // of the functional, by the picture's noise alone; may be < 0 by chance
     double error;           // standard error of this variance
-    double golden;          // the golden's share, taken off
-    double expected;        // the variance for one batch by the golden's noise per pixel
-    double blocks;          // as many sums as were looked at
+    double golden;          // variance by the golden's noise, already subtracted
+    double expected;        // variance of one batch of the golden's estimator
+    double blocks;          // number of sums over blocks
     double blocks_skewness; // of these sums
 };
 
-/// The picture's difference from the golden, summed over small blocks, varies from block to block by
-/// noise alone: that of the picture, and that of the golden, which its standard errors tell. Blocks, as
-/// reconstruction filters make neighbouring pixels depend on each other.
+/// Sums the weighted difference from the golden over blocks of up to 4x4 pixels. The scatter of these
+/// sums is the noise of the picture plus that of the golden, which its standard errors give. Blocks,
+/// because reconstruction filters make neighbouring pixels depend on each other.
 Scatter scatter(const Golden& golden, const images::Image& picture, std::size_t functional,
                 std::size_t channel)
 {
@@ -55,8 +56,8 @@ Scatter scatter(const Golden& golden, const images::Image& picture, std::size_t 
     const Moments found = moments(blocks);
     double fourth = 0.0;
     for (const double sum : blocks) fourth += std::pow(sum - found.mean, 4.0);
-    // Of normal deviations with variances v the squares add up with a variance of 2 sum v^2, and their
-    // fourth powers to 3 sum v^2.
+    // For normal deviations of variances v_i the sum of squares has variance 2 sum v_i^2, and the sum of
+    // fourth powers has mean 3 sum v_i^2.
     return {found.variance * found.count - golden_variance,
             std::sqrt(2.0 / 3.0 * fourth),
             golden_variance,
@@ -65,16 +66,18 @@ Scatter scatter(const Golden& golden, const images::Image& picture, std::size_t 
             found.skewness};
 }
 
-/// A picture that is independent of the golden differs from it by the golden's noise at least.
+/// Throws std::invalid_argument if the picture differs from the golden by less than the golden's own
+/// noise: then the two are not independent.
 void expect_independent(const Scatter& whole)
 {
-    constexpr double fewest = 64.0; // blocks. A quarter of what is expected has a chance of 1e-9 then
+    constexpr double fewest =
+        64.0; // blocks: a quarter of the expected variance then has a chance of 1e-9
     if (whole.blocks >= fewest && whole.golden > 0.0 &&
         whole.variance + whole.golden < 0.25 * whole.golden)
         throw std::invalid_argument("has the golden's own noise: it is not independent of the golden");
 }
 
-/// The noise of the whole picture, in the channel where it exceeds most what its samples let expect.
+/// Sets noise_ratio and noise_error, for the channel in which the ratio is largest.
 void measure_noise(Comparison& comparison, const Golden& golden, const images::Image& picture)
 {
     constexpr std::size_t whole = 0; // matched
@@ -89,7 +92,7 @@ void measure_noise(Comparison& comparison, const Golden& golden, const images::I
     }
 }
 
-/// Findings and what follows from them.
+/// All findings of a picture and their summary, without a verdict.
 Comparison look_at_picture(const Golden& golden, const images::Image& picture, double batches,
                            const CompareOptions& options)
 {
@@ -103,7 +106,7 @@ Comparison look_at_picture(const Golden& golden, const images::Image& picture, d
     const Judge judge(golden, Method::picture, options);
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t f = 0; f < functionals.size(); ++f) {
-            if (!judge.looks_at(f)) continue;
+            if (!judge.can_test(f)) continue;
             const Moments reference = moments(values_of(golden.reference, functionals, f, c));
             MeanEstimate estimate{values_of(row, functionals, f, c)[0], reference.variance / batches,
                                   reference.count - 1.0};
@@ -111,9 +114,8 @@ Comparison look_at_picture(const Golden& golden, const images::Image& picture, d
             const Scatter shown = scatter(golden, picture, f, c);
             if (shown.variance > estimate.variance) {
                 estimate.variance = shown.variance;
-                // Of a variance that is what is left of a larger one, S, when a known part is taken off,
-                // the relative error is larger by S over what is left. Fewer than one degree would
-                // lead to quantiles beyond all numbers.
+                // Subtracting the golden's known part keeps the absolute error of the variance, so the
+                // relative error grows by 1 / share. Below one degree quantiles overflow.
                 const double share = shown.variance / (shown.variance + shown.golden);
                 estimate.degrees = std::max(1.0, (shown.blocks - 1.0) * share * share);
                 skewed = std::max(skewed, std::abs(shown.blocks_skewness) / std::sqrt(shown.blocks));
@@ -122,9 +124,9 @@ Comparison look_at_picture(const Golden& golden, const images::Image& picture, d
         }
     summarise(comparison);
     summarise_reach(comparison, golden, options);
-    comparison.false_alarm = options.convict + options.dark;
+    comparison.false_alarm = options.certainty_level + options.dark_level;
     comparison.stages.push_back({static_cast<std::uint64_t>(std::llround(std::max(1.0, batches))),
-                                 comparison.p, options.accuse});
+                                 comparison.p, options.suspicion_level});
     return comparison;
 }
 
@@ -145,10 +147,10 @@ Comparison compare_picture(const Golden& golden, const images::Image& picture, d
     if (golden.reference.size() < 2)
         throw std::invalid_argument("the golden has one batch after its pilot: too few");
     const double batch_size = batch_size_of(golden);
-    if (!(batch_size > 0.0)) throw std::invalid_argument("the golden does not say its batch_size");
+    if (!(batch_size > 0.0)) throw std::invalid_argument("the golden's metadata have no batch_size");
     const double batches = samples / batch_size;
     Comparison comparison = look_at_picture(golden, picture, batches, options);
-    comparison.odd = odd_pixels(golden, picture, batches, options.dark);
+    comparison.odd = odd_pixels(golden, picture, batches, options.dark_level);
     measure_noise(comparison, golden, replaced(picture, pixels_of(comparison.odd), golden.mean));
     decide(comparison, options);
     const auto bright = bright_pixels(comparison.odd);

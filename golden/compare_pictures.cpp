@@ -20,7 +20,8 @@ Comparison judge_pictures(const Golden& golden, std::span<const images::Image> p
     return compare(golden, candidate, Method::welch, options);
 }
 
-/// Adds what no right picture has and one of these has, if their mean hides it. Whether there is such.
+/// Adds oddities that are wrong in a single picture and hidden in the mean of all. Returns whether there
+/// are any.
 bool look_at_each(Comparison& comparison, const Golden& golden, std::span<const images::Image> pictures)
 {
     bool added = false;

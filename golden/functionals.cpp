@@ -1,8 +1,9 @@
 #include "golden/functionals.h"
+
+#include "golden/rounded.h"
 #include "images/non_finite.h"
 
 #include <glm/geometric.hpp>
-#include <half.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,22 +22,9 @@ double luminance(const images::Rgb& color)
     return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b; // Rec.709
 }
 
-/// A call, so that it is done: g++ 12.2 at -O2 takes a pair of conversions double-float-double in vector
-/// registers for nothing, and drops it.
-[[gnu::noinline]] float to_float(double value)
-{
-    return static_cast<float>(value);
-}
-
-double rounded_to_half(double value)
-{
-    constexpr double largest = HALF_MAX;
-    return static_cast<double>(static_cast<float>(half(to_float(std::clamp(value, -largest, largest)))));
-}
-
-/// The variance of a batch that a pixel is given at least. A pilot of n batches that has seen nothing
-/// vary says with 95% confidence only that whatever it missed is rarer than 3 in n (the rule of three);
-/// something of the size of the mean, that often, would be a variance of 3 m^2 / n.
+/// The variance of a batch in one pixel, at least 3 m^2 / n. If an event occurs in none of n batches,
+/// its chance is below 3 / n with 95% confidence (the rule of three); an event of the size of the mean m
+/// with that chance has this variance.
 double batch_variance(double mean, double noise, std::uint64_t batches)
 {
     return mean * mean * std::max(noise * noise, 3.0 / static_cast<double>(batches));
@@ -58,51 +46,6 @@ std::vector<std::uint32_t> stratify(const std::vector<double>& key)
 }
 
 } // namespace
-
-std::string describe(const Region& region)
-{
-    switch (region.kind) {
-    case RegionKind::whole:
-        return "the whole picture";
-    case RegionKind::coarse_tile:
-    case RegionKind::fine_tile:
-        return "tile x " + std::to_string(region.x0) + ".." + std::to_string(region.x1 - 1) + ", y " +
-               std::to_string(region.y0) + ".." + std::to_string(region.y1 - 1);
-    case RegionKind::luminance:
-        return "luminance stratum " + std::to_string(region.index + 1) + " of 16";
-    case RegionKind::noise:
-        return "noise stratum " + std::to_string(region.index + 1) + " of 16";
-    }
-    return "";
-}
-
-std::string describe(Weight weight)
-{
-    switch (weight) {
-    case Weight::matched:
-        return "matched";
-    case Weight::plain:
-        return "plain";
-    case Weight::bounded:
-        return "bounded";
-    }
-    return "";
-}
-
-Pilot make_pilot(const images::Film& film)
-{
-    if (film.batches() < 2) throw std::invalid_argument("a pilot needs two batches at least");
-    Pilot pilot{film.mean(), images::Image(film.mean().width, film.mean().height), film.batches()};
-    for (std::size_t i = 0; i < pilot.mean.pixels.size(); ++i)
-        for (int channel = 0; channel < 3; ++channel) {
-            double& mean = pilot.mean.pixels[i][channel];
-            mean = static_cast<double>(to_float(mean));
-            const double variance =
-                film.squares().pixels[i][channel] / static_cast<double>(film.batches() - 1);
-            if (mean > 0.0) pilot.noise.pixels[i][channel] = rounded_to_half(std::sqrt(variance) / mean);
-        }
-    return pilot;
-}
 
 Functionals::Functionals(Pilot pilot) : pilot_(std::move(pilot))
 {
@@ -211,7 +154,7 @@ void Functionals::weigh()
             if (!(mean[i][c] > 0.0)) continue;
             variance[i][c] = batch_variance(mean[i][c], pilot_.noise.pixels[i][c], pilot_.batches);
             matched_[i][c] = mean[i][c] / variance[i][c];
-            // A mean so small that its square is 0 weighs nothing.
+            // A mean so small that its square is 0 gets the weight 0.
             if (!std::isfinite(matched_[i][c])) matched_[i][c] = 0.0;
         }
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
@@ -221,8 +164,8 @@ void Functionals::weigh()
         });
         const Sums variances = sum_over_regions([&](std::size_t i) -> std::array<double, 3> {
             const double w = matched_[i][c];
-            // To first order c / (c + m) has a quarter of the relative variance; being between 0 and 1,
-            // at most 1/4.
+            // To first order the standard deviation of c / (c + m) is a quarter of the relative one of
+            // c. A value between 0 and 1 has a variance of at most 1/4.
             const double relative = mean[i][c] > 0.0 ? variance[i][c] / (mean[i][c] * mean[i][c]) : 0.0;
             return {w * w * variance[i][c], variance[i][c], std::min(0.25, relative / 16.0)};
         });
@@ -273,7 +216,7 @@ double Functionals::bounded(std::size_t pixel, int channel, double value) const
 {
     const double light = std::max(0.0, value);
     const double m = std::max(0.0, pilot_.mean.pixels[pixel][channel]);
-    // Where the pilot is black, black is in the middle: it is what is expected there.
+    // Where pilot and value are both black, 1/2 is expected.
     return light + m > 0.0 ? light / (light + m) : 0.5;
 }
 
@@ -340,6 +283,18 @@ double Functionals::pixel_weight(std::size_t functional, std::size_t channel, st
     if (!is_linear(weight) || !contains(regions_[region], pixel)) return 0.0;
     const double scale = standards_[channel][functional].scale;
     return weight == Weight::matched ? scale * matched_[pixel][static_cast<int>(channel)] : scale;
+}
+
+std::vector<double> values_of(const std::vector<Row>& rows, const Functionals& functionals,
+                              std::size_t functional, std::size_t channel)
+{
+    const double expected = functionals.expected(functional, channel);
+    const double spread = functionals.spread(functional, channel);
+    const std::size_t at = channel * functionals.size() + functional;
+    std::vector<double> values;
+    values.reserve(rows.size());
+    for (const Row& row : rows) values.push_back(expected + spread * static_cast<double>(row[at]));
+    return values;
 }
 
 } // namespace golden

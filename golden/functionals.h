@@ -1,72 +1,23 @@
 #pragma once
 
-// A picture in a few hundred numbers per channel: weighted means over regions. Batches of pictures are
-// compared through these numbers, not pixel by pixel, because a small error everywhere is invisible in
-// any one pixel and plain in a mean.
+// A picture as a few hundred numbers per channel, its functionals: weighted means over regions. Batches
+// are compared by these numbers and not pixel by pixel, because a small error everywhere is hidden by
+// the noise of a single pixel and not by that of a mean.
 //
-// Regions and weights are chosen by looking at a pilot: some batches of the golden that are used for
-// nothing else, so that the choice cannot depend on the noise that is then judged.
+// Regions and weights are computed from a pilot: some batches of the golden that are used for nothing
+// else, so that the choice cannot depend on the noise of what is compared.
 
-#include "images/film.h"
+#include "golden/pilot.h"
+#include "golden/region.h"
+#include "images/image.h"
 
 #include <array>
 #include <cstdint>
-#include <span>
-#include <string>
 #include <vector>
 
 namespace golden {
 
-inline constexpr std::size_t channel_count = 3;
-inline constexpr std::array<const char*, channel_count> channel_names = {"red", "green", "blue"};
-
-enum class RegionKind {
-    whole,
-    coarse_tile, // a square of a quarter of the longer side
-    fine_tile,   // a square of an eighth of the longer side: 16x16 pixels of 128x128
-    luminance,   // a stratum: a sixteenth of the pixels, from the darkest to the brightest
-    noise        // a stratum: a sixteenth of the pixels, by relative variance v / m^2
-};
-
-struct Region {
-    RegionKind kind;
-    int index;          // within its kind: row by row, or from the lowest stratum
-    int x0, y0, x1, y1; // x0 <= x < x1, y0 <= y < y1; for a stratum what bounds the whole picture
-    std::size_t pixels;
-};
-
-/// In words: "the whole picture", "tile 32..47, 0..15", "luminance stratum 3 of 16".
-std::string describe(const Region& region);
-
-/// How the pixels of a region are weighed, with m and v the pilot's mean and variance of a batch.
-enum class Weight {
-    matched, // m / v: the best linear way to see a relative error, it listens where the noise is low
-    plain,   // 1: sees an error of few bright pixels that the first would discount
-    bounded  // the mean of c / (c + m): no single sample can move it far, however bright
-};
-inline constexpr std::array weights = {Weight::matched, Weight::plain, Weight::bounded};
-
-std::string describe(Weight weight);
-
-constexpr bool is_linear(Weight weight)
-{
-    return weight != Weight::bounded;
-}
-
-/// Per pixel and channel, the mean of the pilot's batches and their noise sqrt(v) / m, the relative
-/// standard deviation of one batch (0 where m is not positive). What a golden stores of its pilot.
-struct Pilot {
-    images::Image mean;
-    images::Image noise;
-    std::uint64_t batches = 0;
-};
-
-/// The pilot that a film of at least two batches makes, noise rounded to half precision, mean to single:
-/// as a file holds them, so that a golden that was read and one that was made are the same. Throws
-/// std::invalid_argument for fewer batches.
-Pilot make_pilot(const images::Film& film);
-
-/// One region seen through one weight.
+/// A region and a weight.
 struct Functional {
     std::size_t region; // into Functionals::regions()
     Weight weight;
@@ -90,9 +41,9 @@ public:
     [[nodiscard]] std::size_t size() const { return regions_.size() * weights.size(); }
     [[nodiscard]] Functional at(std::size_t functional) const;
 
-    /// What standardised values stand for. A linear functional is divided by its value of the pilot's
-    /// mean, so that 1 is expected and a relative error of the picture is one of the functional; where
-    /// the pilot is black it is the plain sum, and 0 is expected.
+    /// The value of a right picture, before standardising. A linear functional is divided by its value
+    /// of the pilot's mean: 1 is expected, and a relative error of the picture is the same relative
+    /// error of the functional. Where the pilot is black it is the plain sum, and 0 is expected.
     [[nodiscard]] double expected(std::size_t functional, std::size_t channel) const;
     /// About the standard deviation of one batch, positive.
     [[nodiscard]] double spread(std::size_t functional, std::size_t channel) const;
@@ -101,8 +52,8 @@ public:
     /// or infinite.
     [[nodiscard]] Row evaluate(const images::Image& batch) const;
 
-    /// By how much each value of a row moves per relative error of the whole picture, for the bounded
-    /// functionals, as this batch tells; 0 for the linear ones. Throws as evaluate.
+    /// The derivative of each bounded functional with respect to a relative error of the whole picture,
+    /// at this batch, standardised; 0 for the linear ones. Throws as evaluate.
     [[nodiscard]] Row slopes(const images::Image& batch) const;
 
     /// The pixel's share in a linear functional of its channel is weight * value; 0 outside the region.
@@ -123,7 +74,7 @@ private:
     /// c / (c + m), for a value c of the pixel.
     [[nodiscard]] double bounded(std::size_t pixel, int channel, double value) const;
     [[nodiscard]] bool contains(const Region& region, std::size_t pixel) const;
-    /// The sums over tiles and the whole picture, once those over fine tiles and strata are there.
+    /// Adds the sums over fine tiles up to those over coarse tiles and the whole picture.
     void sum_up(Sums& sums) const;
     template <class PixelTerms>
     [[nodiscard]] Sums sum_over_regions(const PixelTerms& terms) const;
@@ -140,5 +91,9 @@ private:
     std::vector<images::Rgb> matched_; // m / v per pixel
     std::array<std::vector<Standard>, 3> standards_;
 };
+
+/// One functional of several batches, in its own units.
+std::vector<double> values_of(const std::vector<Row>& rows, const Functionals& functionals,
+                              std::size_t functional, std::size_t channel);
 
 } // namespace golden

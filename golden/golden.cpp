@@ -1,5 +1,6 @@
 #include "golden/golden.h"
 
+#include "golden/rounded.h"
 #include "images/image_error.h"
 #include "images/non_finite.h"
 #include "images/whole_number.h"
@@ -23,18 +24,11 @@ constexpr const char* pilot_batches_key = "golden.pilot_batches";
 constexpr const char* reference_batches_key = "golden.reference_batches";
 constexpr const char* functionals_key = "golden.functionals";
 
-/// As a file holds it. A call, so that it is done: g++ 12.2 at -O2 drops a pair of conversions
-/// double-float-double in vector registers.
-[[gnu::noinline]] float single(double value)
-{
-    return static_cast<float>(value);
-}
-
 images::Image in_single_precision(images::Image image)
 {
     for (images::Rgb& pixel : image.pixels)
         for (int channel = 0; channel < 3; ++channel)
-            pixel[channel] = static_cast<double>(single(pixel[channel]));
+            pixel[channel] = static_cast<double>(to_float(pixel[channel]));
     return image;
 }
 
@@ -65,7 +59,7 @@ std::vector<Row> read_rows(const fs::path& path, const images::Layers& layers,
 {
     const std::size_t count = functionals.size();
     const auto pixels = functionals.pilot().mean.pixels.size();
-    // Before memory is asked for: do the layers hold so many?
+    // Checked before memory is allocated: the layers must hold that many.
     const std::size_t layers_needed = (batches * count + pixels - 1) / pixels;
     if (batches > layers.size() * pixels / count || !layers.contains(reference_layer(layers_needed - 1)))
         throw images::ImageError(path, "damaged golden: says it holds " + std::to_string(batches - 1) +
@@ -103,7 +97,7 @@ std::uint64_t find_number(const fs::path& path, const images::Metadata& metadata
     return *number;
 }
 
-/// What two builds of this program must agree on to read each other's goldens.
+/// The layout of the functionals. Two builds of this program read each other's goldens if it is equal.
 std::string say_functionals(const Functionals& functionals)
 {
     return "version 1, " + std::to_string(functionals.size()) + " per channel";

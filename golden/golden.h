@@ -1,7 +1,7 @@
 #pragma once
 
-// A golden: a reference picture, with all that is needed to judge another one by it. It is an EXR file
-// (see exr.h) with further layers, the values of which are stored in half precision but for the first:
+// A golden: a reference picture, with all data that a comparison with it needs. It is an EXR file (see
+// images/exr.h) with further layers, all but the first in half precision:
 //
 //   pilot.mean.R ...        the mean of the pilot's batches, in single precision
 //   pilot.noise.R ...       their relative standard deviation, sqrt(v) / m
@@ -30,23 +30,22 @@ struct Golden {
     images::Metadata metadata;
     Functionals functionals;
     std::vector<Row> reference; // the functionals of each batch after the pilot
-    Row slopes;                 // see Functionals::slopes, of the first of these batches
+    Row slopes;                 // Functionals::slopes of the first of these batches
 
-    /// The pilot's and the reference's together: those of `mean`.
+    /// Of pilot and reference together: those of `mean`.
     [[nodiscard]] std::uint64_t batches() const
     {
         return functionals.pilot().batches + reference.size();
     }
 };
 
-/// Samples per pixel in a batch, as the golden's metadata say; 0 if they do not say.
+/// Samples per pixel in a batch, from the golden's metadata; 0 if there is no such entry.
 double batch_size_of(const Golden& golden);
 
-/// Reads a golden. Throws ImageError for what is none, with the reason.
+/// Reads a golden. Throws ImageError, with the reason, for a file that is no finished golden.
 Golden read_golden(const std::filesystem::path& path);
 
-/// Makes a golden batch by batch. The bits depend only on the batches, wherever the making was
-/// interrupted and resumed.
+/// Makes a golden batch by batch. The bits depend only on the batches, not on interruptions.
 class GoldenMaker {
 public:
     /// The first `pilot_batches` batches, at least 2, are the pilot.
@@ -66,7 +65,7 @@ public:
     /// batch after the pilot.
     [[nodiscard]] Golden golden(const images::Metadata& metadata) const;
 
-    /// Writes what there is, with the state to resume from or, once it is finished, without.
+    /// Writes the golden so far, with the state to resume from or, when it is finished, without.
     /// `metadata` describes the picture, batch_size included. Throws ImageError, and
     /// std::invalid_argument for a golden without state that has no batch after the pilot.
     void write(const std::filesystem::path& path, const images::Metadata& metadata,

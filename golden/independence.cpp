@@ -9,11 +9,11 @@ namespace golden {
 
 namespace {
 
-constexpr double nearly_all = 0.9;        // of the sites that tell something
-constexpr double negligible = 1e-9;       // chance, all comparisons together
-constexpr std::size_t most_before = 256;  // pictures that each is compared with
+constexpr double nearly_all = 0.9;        // share of the informative sites
+constexpr double negligible = 1e-9;       // chance of a false result, all comparisons together
+constexpr std::size_t most_before = 256;  // pictures before it that each is compared with
 constexpr std::size_t third_pictures = 4; // that each pair is compared with
-constexpr double times_closer = 3.0;      // than two independent pictures may be
+constexpr double times_closer = 3.0;      // than independent pictures are
 constexpr double times_closer_than_golden = 1e4;
 
 double sum_of(const images::Rgb& pixel)
@@ -21,7 +21,7 @@ double sum_of(const images::Rgb& pixel)
     return pixel.r + pixel.g + pixel.b;
 }
 
-/// Pixels that are looked at: every other one of every other row, as a reconstruction filter makes
+/// The pixels that are compared: every other one of every other row, as a reconstruction filter makes
 /// neighbours depend on each other.
 std::vector<std::size_t> sites_of(const images::Image& image)
 {
@@ -33,8 +33,8 @@ std::vector<std::size_t> sites_of(const images::Image& image)
     return sites;
 }
 
-/// How many sites tell something, and in how many of them two pictures are as close as only pictures
-/// with the same noise are.
+/// The number of informative sites, and in how many of them two pictures are so close that this is
+/// evidence of the same noise.
 struct Closeness {
     std::size_t sites = 0, close = 0;
     [[nodiscard]] bool is_nearly_everywhere() const
@@ -54,14 +54,14 @@ Closeness closeness_beside(const images::Image& a, const images::Image& b, const
         if (between == 0.0 && from_a == 0.0) continue;
         ++result.sites;
         result.close += times_closer * between < std::min(from_a, from_b);
-        constexpr std::size_t first_look = 64;
-        if (result.sites == first_look && 2 * result.close < first_look) return result; // most pairs
+        constexpr std::size_t first_look = 64; // most pairs end here
+        if (result.sites == first_look && 2 * result.close < first_look) return result;
     }
     return result;
 }
 
 /// The same for two pictures, beside the golden, where they differ from it by more than its own noise. A
-/// factor on all pixels, as of a wrong exposure, is taken off first.
+/// factor on all pixels, as of a wrong exposure, is divided out first.
 Closeness closeness_beside_golden(const Golden& golden, const images::Image& a, const images::Image& b,
                                   const std::vector<std::size_t>& sites)
 {
@@ -85,7 +85,8 @@ Closeness closeness_beside_golden(const Golden& golden, const images::Image& a, 
     return result;
 }
 
-/// In how many pixels the golden has noise to speak of, and whether two pictures are the same there.
+/// In how many pixels the golden's noise is more than 1% of its mean, and whether two pictures are the
+/// same there.
 struct Sameness {
     std::size_t noisy = 0;
     bool equal = true;  // bit for bit, in all pixels
@@ -117,7 +118,7 @@ std::optional<SharedNoise> all_the_same(const Golden& golden, std::span<const im
     std::size_t noisy = 0;
     for (std::size_t i = 1; i < pictures.size(); ++i) {
         const Sameness same = sameness_of(golden, pictures[0], pictures[i]);
-        // Of a few pixels, pictures of very many samples may agree so well by chance.
+        // In few pixels, pictures of very many samples may agree so well by chance.
         constexpr std::size_t enough = 32;
         if (same.noisy == 0 || !(same.equal || (same.within && same.noisy >= enough)))
             return std::nullopt;

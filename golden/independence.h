@@ -1,8 +1,8 @@
 #pragma once
 
 // Are several pictures independent of each other? A renderer that ignores its seed gives the same noise
-// every time; averaged, such pictures look certain and are not. docs/comparison.md, section 5, derives
-// the bounds.
+// every time; the mean of such pictures has more noise than their scatter shows. docs/comparison.md,
+// section 5, derives the bounds.
 
 #include "golden/golden.h"
 #include "images/image.h"
@@ -14,7 +14,7 @@
 
 namespace golden {
 
-/// Two pictures, by their numbers, and what shows that one has the other's noise.
+/// Two pictures, by their numbers from 0, that have the same noise, and the evidence for that.
 struct SharedNoise {
     std::size_t first, second;
     std::string why; // "are equal in all 4096 pixels"

@@ -10,7 +10,7 @@ namespace golden {
 
 namespace {
 
-/// What is seen of one picture, value by value.
+/// A picture and the golden, value by value, with the noise of both.
 class Look {
 public:
     Look(const Golden& golden, const images::Image& picture)
@@ -39,7 +39,7 @@ public:
     /// The golden's mean, over pixels and channels.
     [[nodiscard]] double brightness() const { return brightness_; }
 
-    /// Of one batch of the golden; at least what may have been missed, as in functionals.cpp.
+    /// The variance of one batch of the golden, at least that of the rule of three (functionals.cpp).
     [[nodiscard]] double batch_variance_of(std::size_t i, std::size_t c) const
     {
         const double error = golden_error(i, c);
@@ -47,18 +47,17 @@ public:
         return std::max(error * error * batches_, 3.0 * mean * mean / batches_);
     }
 
-    /// The difference from the golden in standard deviations: those of the golden's noise, scaled to
-    /// what most pixels of this picture show, so that neither its samples nor an error everywhere
-    /// matter.
+    /// The difference from the golden in standard deviations: those of the golden's noise, scaled by the
+    /// median over this picture, so that neither its number of samples nor an error everywhere matters.
     [[nodiscard]] double deviations(std::size_t i, std::size_t c) const
     {
-        const double floor = 1e-4 * brightness_; // no picture is compared more closely
+        const double floor = 1e-4 * brightness_; // smaller differences are never odd
         const double deviation = std::sqrt(noise_[c] * batch_variance_of(i, c) + floor * floor);
         return deviation > 0.0 ? (value(i, c) - expected(i, c)) / deviation : 0.0;
     }
 
 private:
-    /// The variance that half of the pixels stay below, in units of that of a batch of the golden.
+    /// The median squared difference as a variance, in units of that of a batch of the golden.
     [[nodiscard]] double noise_of(std::size_t c) const
     {
         std::vector<double> squares;
@@ -79,7 +78,7 @@ private:
     std::array<double, channel_count> noise_{};
 };
 
-/// Gathers pixels of one kind and remembers the worst.
+/// The pixels of one kind, and the worst of them.
 class Gatherer {
 public:
     Gatherer(Oddity kind, const Look& look, int width) : look_(look), width_(width) { odd_.kind = kind; }
@@ -97,7 +96,7 @@ public:
         odd_.deviations = std::abs(look_.deviations(i, c));
     }
 
-    /// None if there is no such pixel, or more than `most`.
+    /// Appends what was gathered, unless there is no such pixel or there are more than `most`.
     void give(std::vector<OddPixels>& to, bool wrong, std::size_t most)
     {
         std::sort(odd_.pixels.begin(), odd_.pixels.end());
@@ -113,9 +112,9 @@ private:
     double worst_ = -std::numeric_limits<double>::infinity();
 };
 
-/// The value at which most pixels of a channel are cut off, with their numbers: they are equal, the
-/// golden is brighter than that beyond its own error, and next to nothing in the picture is. Three at
-/// least.
+/// The pixels of a channel that are clipped, by their numbers: at least three of exactly the same value,
+/// where the golden is brighter by more than its own error, while at most one in a hundred of them is
+/// exceeded in the picture.
 std::vector<std::size_t> cut_off(const Look& look, std::size_t c)
 {
     std::vector<std::size_t> order(look.pixels());
@@ -140,7 +139,7 @@ std::vector<std::size_t> cut_off(const Look& look, std::size_t c)
     return most;
 }
 
-/// Puts each value of a picture to its kind.
+/// Sorts the values of a picture by their oddity.
 class Sorter {
 public:
     Sorter(const Look& look, int width, double batches, double level)
@@ -189,9 +188,9 @@ public:
     }
 
 private:
-    /// Whether a right picture has such a dark value with a chance below the level, all values together:
-    /// even if its noise is ten times that of the golden in this very pixel, as another estimator's may
-    /// be, and the golden is too bright by eight of its standard errors.
+    /// Whether the chance of such a dark value in a right picture is below the level, all values
+    /// together. Assumes ten times the golden's variance in this pixel, as another estimator may have,
+    /// and a golden that is too bright by eight of its standard errors.
     [[nodiscard]] bool is_dead(std::size_t i, std::size_t c) const
     {
         constexpr double more_noise = 10.0;

@@ -1,8 +1,8 @@
 #pragma once
 
-// What a look at single pixels finds before any statistics: values that no right picture has, and values
-// so far from the golden's that they would rule every mean that they are part of. docs/comparison.md,
-// section 6, says which of them decide.
+// Checks of single pixels, before all statistics: values that no right picture has, and values so far
+// from the golden's that they dominate every mean that they are part of. docs/comparison.md, section 6,
+// lists which of them make FAIL.
 
 #include "golden/golden.h"
 #include "images/image.h"
@@ -15,8 +15,8 @@
 namespace golden {
 
 enum class Oddity {
-    negative, // radiance is not
-    clipped,  // many values are exactly the same one, where the golden is brighter
+    negative, // radiance cannot be
+    clipped,  // at least three values are exactly equal, where the golden is brighter
     dark,     // far below the golden: a dead pixel
     bright    // far above it: a firefly, or a defect
 };
@@ -26,24 +26,24 @@ std::string describe(Oddity oddity); // "negative"
 /// All pixels with one oddity. `channel`, `value` and the rest are those of the worst of them.
 struct OddPixels {
     Oddity kind;
-    std::vector<std::size_t> pixels; // their numbers, row by row; not empty
+    std::vector<std::size_t> pixels; // y * width + x, ascending; not empty
     images::PixelPosition place;
     std::size_t channel;
     double value;
     double expected;   // the golden's mean there
     double deviations; // |value - expected| in standard deviations of the picture's pixels; dark, bright
-    bool wrong;        // no right picture has it: it makes FAIL
-    std::optional<std::size_t> picture = {}; // of several, counted from 1; none: their mean
+    bool wrong;        // no right picture has it: FAIL
+    std::optional<std::size_t> picture = {}; // of several, from 1; none: their mean
 };
 
 /// "1 pixel is negative, which radiance cannot be: red of pixel (3, 4) is -5"
 std::string describe(const OddPixels& odd);
 
-/// Looks at a picture that is the mean of `batches` batches of the golden's size (or of fewer; 0 if that
-/// is not known), of the golden's size and without NaN. The list is empty for most pictures. A dark
+/// The odd pixels of a picture of the golden's size, without NaN, that is the mean of at least `batches`
+/// batches (0 if not known). Empty for most pictures. A dark
 /// pixel is wrong if the chance of any such pixel in a right picture is below `level`, see
-/// chance_of_darkness. Pixels that are dark or bright are listed only if they are few: at most one in
-/// 500, or one of a small picture.
+/// chance_of_darkness. Pixels that are dark or bright are listed only if there are few: at most one
+/// in 500, or one in a small picture.
 std::vector<OddPixels> odd_pixels(const Golden& golden, const images::Image& picture, double batches,
                                   double level);
 

@@ -9,7 +9,7 @@ namespace golden {
 
 namespace {
 
-/// Rounded up to two digits: what is "about" right and enough.
+/// Rounded up to two digits.
 std::string say_about(double count)
 {
     double unit = 1.0;
@@ -17,7 +17,7 @@ std::string say_about(double count)
     return say(std::ceil(count / unit) * unit, 15);
 }
 
-/// Of three channels; those in which the golden is black, NaN, are passed over.
+/// The largest of three channels. NaN, of a channel in which the golden is black, is ignored.
 double largest(const std::array<double, 3>& errors)
 {
     double result = 0.0;
@@ -32,7 +32,7 @@ std::string say_fixed(double number)
     return text.data();
 }
 
-/// Whether most fine tiles differ from the golden, and by one and the same factor.
+/// Whether most fine tiles differ from the golden by the same factor.
 bool is_scaled(const Comparison& comparison, const Finding& whole)
 {
     double tiles = 0.0;
@@ -58,7 +58,7 @@ images::Image upside_down(const images::Image& image)
     return turned;
 }
 
-/// The sum over pixels of |a - b| / (a + b), which no single pixel rules.
+/// The sum over pixels of |a - b| / (|a| + |b|), to which each value adds at most 1.
 double distance(const images::Image& a, const images::Image& b)
 {
     double sum = 0.0;

@@ -100,7 +100,7 @@ std::string number(const char* format, double value)
     return text.data();
 }
 
-/// What the numbers mean, in sentences.
+/// The numbers in sentences.
 std::vector<std::string> summary_of(const Comparison& comparison)
 {
     std::vector<std::string> lines;
@@ -116,13 +116,13 @@ std::vector<std::string> summary_of(const Comparison& comparison)
         const Finding& f = comparison.findings[*comparison.suspicion];
         lines.push_back("It is that of " + describe(f) + ".");
     }
-    if (comparison.blindest_stratum) {
-        const Finding& f = comparison.findings[*comparison.blindest_stratum];
-        lines.push_back("Blindest stratum: " + describe(f) + ", where " +
+    if (comparison.least_sensitive_stratum) {
+        const Finding& f = comparison.findings[*comparison.least_sensitive_stratum];
+        lines.push_back("Least sensitive stratum: " + describe(f) + ", where " +
                         (std::isfinite(f.detectable)
                              ? "an error of " + number("%.2f", 100.0 * f.detectable) + "%"
                              : std::string("no error")) +
-                        " would have been seen for certain.");
+                        " is detectable.");
     }
     if (comparison.noise_ratio)
         lines.push_back("The picture's own noise is " + say_noise(comparison) + ".");
@@ -140,8 +140,8 @@ Json json_of(const OddPixels& odd)
     return json;
 }
 
-/// How many samples, or pictures, would show an error of the specified size; or, where no number does,
-/// what a golden would need.
+/// The number of samples, or pictures, that makes an error of the specified size detectable; or, where
+/// no number does, the size of golden that is needed.
 Json needed_by(const Comparison& comparison)
 {
     const bool in_samples = comparison.batch_size > 0.0;
@@ -184,7 +184,7 @@ Json numbers_of(const Report& report)
     return json;
 }
 
-/// The sheet of all layers that are named for a strategy, as a data URI; none if there is none.
+/// The sheet of all layers that are named for a strategy, as a data URI; empty if there is none.
 std::string sheet_of(const images::Layers& layers)
 {
     images::Strategies strategies;
@@ -217,7 +217,7 @@ std::string report_page(const Report& report)
                         {"flip", base64_floats({flip_map.begin(), flip_map.end()})}};
     if (const std::string sheet = sheet_of(report.strategies); !sheet.empty())
         data["pictures"]["strategies"] = sheet;
-    // Inside a script element only "<" could end it.
+    // Only a "<" can end a script element.
     std::string text;
     for (const char c : data.dump(-1, ' ', true))
         text += c == '<' ? std::string("\\u003c") : std::string(1, c);

@@ -2,33 +2,35 @@
 
 // A comparison as numbers for machines and as a page for people.
 
-#include "golden/compare.h"
+#include "golden/comparison.h"
+#include "golden/golden.h"
 #include "images/exr.h"
+#include "images/image.h"
 
 #include <filesystem>
 #include <string>
 
 namespace golden {
 
-/// A comparison and the pictures that it is about.
+/// A comparison and its pictures.
 struct Report {
     std::string title;
     const Comparison& comparison;
     const Golden& golden;
     const images::Image& candidate; // the mean of all its batches
     images::Metadata candidate_metadata;
-    images::Layers strategies =
-        {}; // of the candidate, by the names of images::layer_name: "s2t3"; may be empty
+    /// Of the candidate, by the names of images::layer_name ("s2t3"); may be empty.
+    images::Layers strategies = {};
 };
 
 /// One JSON object: verdict, reason, p, per channel ratio, interval, smallest detectable error and what
-/// the golden hides, odd pixels, all findings, the tiles' z, stages, and the metadata of both pictures.
-/// What is not a number is null.
+/// limit by the golden's noise, odd pixels, all findings, the tiles' z, stages, and the metadata of both
+/// pictures. NaN and infinite numbers are null.
 std::string report_json(const Report& report);
 
 /// A self-contained HTML page: the numbers of report_json, both pictures under one slider with zoom and
 /// exposure, z per tile, the histogram of p-values, the HDR-FLIP map, and the strategies if there are
-/// any. It loads nothing from anywhere.
+/// any. It loads no other files.
 std::string report_page(const Report& report);
 
 /// Writes report_page. Throws ImageError.

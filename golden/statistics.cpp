@@ -22,7 +22,7 @@ double normal_tail(double z)
     return boost::math::cdf(boost::math::complement(boost::math::normal(), z));
 }
 
-/// What a standard normal variable exceeds with this chance.
+/// The value that a standard normal variable exceeds with this chance.
 double normal_quantile(double tail)
 {
     return boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
@@ -43,7 +43,7 @@ double student_quantile(double degrees, double tail)
                : boost::math::quantile(boost::math::complement(boost::math::students_t(degrees), tail));
 }
 
-/// What the merge of two sorted samples tells.
+/// Counts from the merge of two sorted samples.
 struct Ranks {
     double u = 0.0;    // pairs with a > b, those with a = b counted half
     double ties = 0.0; // sum of t^3 - t over the groups of t equal values
@@ -150,7 +150,7 @@ double detectable_effect(std::span<const double> reference, double count, double
         high = low;
         low /= 1.25;
     }
-    while (high - low > 0.02 * high) { // two digits are more than the next golden would repeat
+    while (high - low > 0.02 * high) { // two digits: another golden changes more
         const double middle = (low + high) / 2.0;
         (excess(middle) >= needed ? high : low) = middle;
     }
@@ -226,7 +226,7 @@ double welch_degrees(const MeanEstimate& a, const MeanEstimate& b)
 {
     const double sum = a.variance + b.variance;
     if (!(sum > 0.0)) return infinity;
-    const double share_a = a.variance / sum; // shares, as squares of small variances may underflow
+    const double share_a = a.variance / sum; // shares: squares of small variances may underflow
     const double share_b = b.variance / sum;
     return 1.0 / (share_a * share_a / a.degrees + share_b * share_b / b.degrees);
 }

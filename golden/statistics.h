@@ -1,7 +1,7 @@
 #pragma once
 
-// The statistics that pictures are judged by: samples of numbers in, p-values and intervals out.
-// Quantiles and tails of the distributions are Boost.Math's.
+// Statistical tests and intervals for samples of numbers. Quantiles and tails of the distributions are
+// those of Boost.Math.
 
 #include <span>
 
@@ -27,22 +27,22 @@ struct TestResult {
 double one_sided(const TestResult& test, double direction);
 
 /// Does one sample tend to be larger than the other? The rank sum test [Wilcoxon 1945; Mann & Whitney
-/// 1947]: it looks only at which value is larger, so no tail is too heavy for it. Both samples sorted in
+/// 1947]. It uses only the order of the values, so it is valid for any tails. Both samples sorted in
 /// ascending order; `shift` is added to each value of `a`. The exact distribution of U where there are
 /// no ties and |a| |b| <= 400; otherwise the normal approximation with correction for ties and for
 /// continuity. Samples that are empty, or all values alike: p = 1. Throws std::invalid_argument for
 /// samples that are not sorted.
 TestResult mann_whitney(std::span<const double> a, std::span<const double> b, double shift = 0.0);
 
-/// The same for the hypothesis that `a` differs from `b` by no more than `tolerance` >= 0, which is what
-/// is left of a difference between implementations of the same thing once they round differently.
+/// The same for the hypothesis that `a` is shifted against `b` by no more than `tolerance` >= 0, the
+/// difference that rounding makes between two implementations of one estimator.
 TestResult mann_whitney_beyond(std::span<const double> a, std::span<const double> b, double tolerance);
 
-/// A mean with the variance of its error and the degrees of freedom that this variance is known with.
+/// A mean, the variance of its error, and the degrees of freedom of this variance.
 struct MeanEstimate {
     double mean = 0.0;
     double variance = 0.0;
-    double degrees = 0.0; // > 0; infinite for a variance that is known
+    double degrees = 0.0; // > 0; infinite if the variance is known exactly
 };
 
 /// The mean of a sample. Needs two values at least: throws std::invalid_argument for fewer.
@@ -57,13 +57,13 @@ double welch_degrees(const MeanEstimate& a, const MeanEstimate& b);
 TestResult welch(const MeanEstimate& a, const MeanEstimate& b, double tolerance = 0.0);
 
 /// Whether `candidate`, of values >= 0, may be darker than `reference` only because none of its batches
-/// has an event that is rare for it: neither its variance nor its skewness then shows that there are
-/// such events. It may, if both hold:
-/// - its standard deviation is less than a tenth of the reference's, which has seen the events;
-/// - events that all of its B batches lack with a probability of `level`, (1 - q)^B = level, can bring
-///   what is missing: each has to bring missing / q, and that is at most four times what the `largest`
-///   value of the reference is above its mean.
-/// So light that is missing for good where the reference has little noise is not taken for bad luck.
+/// contains an event that is rare for it. Neither its variance nor its skewness shows such events then.
+/// True if both hold:
+/// - its standard deviation is less than a tenth of that of the reference, which contains the events;
+/// - events that all of its B batches lack with probability `level`, (1 - q)^B = level, can explain the
+///   missing light: each contributes missing / q, at most four times the distance of the `largest` value
+///   of the reference from its mean.
+/// Where the reference has little noise, missing light is therefore still found.
 bool may_lack_rare_events(const Moments& candidate, const Moments& reference, double largest,
                           double level);
 
@@ -79,10 +79,10 @@ Interval ratio_interval(const MeanEstimate& a, const MeanEstimate& b, double con
 /// The p-value of the smallest of `comparisons` p-values, whatever their dependence [Bonferroni 1936].
 double bonferroni(double p, double comparisons);
 
-/// The chance that all of several samples exceed one and the same reference sample, each significantly
-/// at its own one-sided level, if all are alike: by `counts` normally distributed values each, and
-/// `reference_count`. Were the reference known exactly, it would be the product of the levels; its error
-/// is shared by all.
+/// The chance that several samples all exceed the same reference sample significantly, each at its own
+/// one-sided level, if all values have the same normal distribution. `counts`, `reference_count`:
+/// numbers of values. For a reference without error it is the product of the levels; the error of the
+/// reference is common to all samples.
 double all_exceed(std::span<const double> counts, std::span<const double> levels,
                   double reference_count);
 
@@ -91,9 +91,9 @@ double all_exceed(std::span<const double> counts, std::span<const double> levels
 double detectable_difference(double standard_error, double degrees, double alpha, double power);
 
 /// The smallest effect e > 0 that mann_whitney at level `alpha` finds with probability `power` between
-/// `count` values and `reference`, if it turns the distribution of `reference` into that of
-/// (1 + e) `reference`: such values must exceed those of `reference` often enough. Infinite if there is
-/// none below 100, as is the case if even complete separation would not reach the level. `reference`
+/// `count` values and `reference`, if it multiplies the values of `reference` by 1 + e.
+/// Infinite if there is none below 100, for example where even complete separation does not reach the
+/// level. `reference`
 /// sorted, of positive mean.
 double detectable_scale(std::span<const double> reference, double count, double alpha, double power);
 

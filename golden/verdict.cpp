@@ -19,8 +19,9 @@ double detectable_by(const Finding& finding)
     return finding.conclusive ? finding.detectable : std::numeric_limits<double>::infinity();
 }
 
-/// The finding that shows the smallest error of the region and channel that findings[first] is the first
-/// of; none if no error is defined there. A finding that is not conclusive shows none.
+/// The finding with the smallest detectable error among those of one region and channel, of which
+/// findings[first] is the first; none if no such error is defined. It is infinite for a finding that is
+/// not conclusive.
 std::optional<std::size_t> sharpest_in(const std::vector<Finding>& findings, std::size_t first)
 {
     std::optional<std::size_t> best;
@@ -35,31 +36,23 @@ std::optional<std::size_t> sharpest_in(const std::vector<Finding>& findings, std
     return best;
 }
 
-/// The channel in which least can be seen; none if the golden is black.
-std::optional<std::size_t> blindest_channel(const Comparison& comparison)
+std::string below_certainty_level(const CompareOptions& options)
 {
-    std::optional<std::size_t> blindest;
+    return ", below the certainty level of " + say(options.certainty_level, 3);
+}
+
+/// The channel with the largest detectable error; none if the golden is black.
+std::optional<std::size_t> least_sensitive_channel(const Comparison& comparison)
+{
+    std::optional<std::size_t> least_sensitive;
     for (std::size_t c = 0; c < channel_count; ++c)
         if (!std::isnan(comparison.detectable[c]) &&
-            (!blindest || comparison.detectable[c] > comparison.detectable[*blindest]))
-            blindest = c;
-    return blindest;
+            (!least_sensitive || comparison.detectable[c] > comparison.detectable[*least_sensitive]))
+            least_sensitive = c;
+    return least_sensitive;
 }
 
 } // namespace
-
-std::string describe(Verdict verdict)
-{
-    switch (verdict) {
-    case Verdict::pass:
-        return "PASS";
-    case Verdict::fail:
-        return "FAIL";
-    case Verdict::inconclusive:
-        return "INCONCLUSIVE";
-    }
-    return "";
-}
 
 void summarise(Comparison& comparison)
 {
@@ -70,7 +63,7 @@ void summarise(Comparison& comparison)
         const Finding& finding = findings[i];
         if (finding.conclusive) {
             conclusive += 1.0;
-            // Of p-values that are all 0 or all 1, the largest effect.
+            // Among equal p-values, which may all be 0 or 1, the largest effect.
             const auto rank = [](const Finding& f) {
                 return std::pair(f.adjusted_p, -std::abs(f.test.z));
             };
@@ -85,9 +78,9 @@ void summarise(Comparison& comparison)
             comparison.detectable[finding.channel] = detectable;
         const bool stratum =
             finding.region.kind == RegionKind::luminance || finding.region.kind == RegionKind::noise;
-        if (stratum && (!comparison.blindest_stratum ||
-                        detectable > detectable_by(findings[*comparison.blindest_stratum])))
-            comparison.blindest_stratum = sharpest;
+        if (stratum && (!comparison.least_sensitive_stratum ||
+                        detectable > detectable_by(findings[*comparison.least_sensitive_stratum])))
+            comparison.least_sensitive_stratum = sharpest;
     }
     comparison.coverage = findings.empty() ? 0.0 : conclusive / static_cast<double>(findings.size());
     if (comparison.suspicion) comparison.p = findings[*comparison.suspicion].adjusted_p;
@@ -116,30 +109,30 @@ void summarise_reach(Comparison& comparison, const Golden& golden, const Compare
     }
 }
 
-void acquit(Comparison& comparison, const CompareOptions& options, const std::string& remark)
+void pass_or_inconclusive(Comparison& comparison, const CompareOptions& options,
+                          const std::string& remark)
 {
-    const auto channel = blindest_channel(comparison);
+    const auto channel = least_sensitive_channel(comparison);
     const double detectable = channel ? comparison.detectable[*channel] : 0.0;
     const std::string where = channel ? std::string(" in ") + channel_names[*channel] : "";
     if (detectable > options.specification) {
         comparison.verdict = Verdict::inconclusive;
         std::string text = "No difference found, but ";
-        text += std::isinf(detectable)
-                    ? "no error of the whole picture" + where + " could have been found for certain"
-                    : "only an error of " + say_percent(detectable) + " of the whole picture" + where +
-                          " would have been";
+        text += std::isinf(detectable) ? "no error of the whole picture" + where + " is detectable"
+                                       : "only an error of " + say_percent(detectable) +
+                                             " of the whole picture" + where + " would have been found";
         text += " (required: " + say_percent(options.specification) + "): ";
         give_reason(comparison, text + say_shortfall(comparison) + "." + remark);
         return;
     }
     comparison.verdict = Verdict::pass;
     give_reason(comparison, channel ? "No difference found; an error of " + say_percent(detectable) +
-                                          " of the whole picture would have been, with " +
+                                          " of the whole picture would have been found, with " +
                                           say_percent(options.power) + " probability." + remark
                                     : "Both pictures are black." + remark);
 }
 
-void convict(Comparison& comparison, const std::string& how)
+void fail(Comparison& comparison, const std::string& how)
 {
     comparison.verdict = Verdict::fail;
     give_reason(comparison, say_suspicion(comparison) + how + ".");
@@ -150,21 +143,21 @@ bool decide_at_once(Comparison& comparison, const CompareOptions& options, bool 
     if (std::any_of(comparison.odd.begin(), comparison.odd.end(),
                     [](const OddPixels& odd) { return odd.wrong; })) {
         comparison.verdict = Verdict::fail;
-        give_reason(comparison, comparison.p < options.accuse
+        give_reason(comparison, comparison.p < options.suspicion_level
                                     ? "Besides, " + say_suspicion(comparison) + "."
                                     : std::string());
         return true;
     }
-    if (comparison.p >= options.accuse) {
-        acquit(comparison, options);
+    if (comparison.p >= options.suspicion_level) {
+        pass_or_inconclusive(comparison, options);
         return true;
     }
-    const auto beyond_doubt = [&](const Finding& finding) {
-        return finding.conclusive && finding.adjusted_p < options.convict &&
+    const auto certain = [&](const Finding& finding) {
+        return finding.conclusive && finding.adjusted_p < options.certainty_level &&
                !(can_render_again && finding.darker_without_noise);
     };
-    if (std::ranges::any_of(comparison.findings, beyond_doubt)) {
-        convict(comparison, ", beyond doubt");
+    if (std::ranges::any_of(comparison.findings, certain)) {
+        fail(comparison, below_certainty_level(options));
         return true;
     }
     return false;
@@ -172,18 +165,19 @@ bool decide_at_once(Comparison& comparison, const CompareOptions& options, bool 
 
 void decide_without(Comparison& comparison, const Comparison& without, const CompareOptions& options)
 {
-    comparison.false_alarm += options.convict;
+    comparison.false_alarm += options.certainty_level;
     const std::string them = bright_pixels(comparison.odd).size() == 1 ? "it" : "them";
-    // Without its bright pixels a picture is darker than it was: that proves nothing. Brighter does.
-    if (without.p < options.convict && without.findings[*without.suspicion].test.z > 0.0) {
+    // Removing bright pixels makes a picture darker, so only a difference to the bright side counts.
+    if (without.p < options.certainty_level && without.findings[*without.suspicion].test.z > 0.0) {
         comparison.verdict = Verdict::fail;
-        give_reason(comparison, "Without " + them + ", " + say_suspicion(without) + ", beyond doubt.");
+        give_reason(comparison, "Without " + them + ", " + say_suspicion(without) +
+                                    below_certainty_level(options) + ".");
         return;
     }
     const bool blind = std::any_of(comparison.detectable.begin(), comparison.detectable.end(),
                                    [](double error) { return std::isinf(error); });
     const bool only_they_hinder = without.verdict == Verdict::pass;
-    if (!only_they_hinder && (!blind || without.p < options.accuse)) return;
+    if (!only_they_hinder && (!blind || without.p < options.suspicion_level)) return;
     comparison.shortfall = without.shortfall;
     give_reason(comparison, "Without " + them + ": " + without.reason +
                                 " Another picture, with another seed, shows which it is: a rare bright "

@@ -2,35 +2,37 @@
 
 // From findings to a verdict.
 
-#include "golden/compare.h"
+#include "golden/compare_options.h"
+#include "golden/comparison.h"
+#include "golden/golden.h"
 
 #include <string>
 
 namespace golden {
 
-/// Fills in what follows from the findings: suspicion, p, what is detectable, coverage.
+/// Computes suspicion, p, detectable, least_sensitive_stratum and coverage from the findings.
 void summarise(Comparison& comparison);
 
-/// Fills in, from the findings of t tests, how far more samples than comparison.candidate_batches would
-/// lead: golden_limit and shortfall. After summarise.
+/// Computes golden_limit and shortfall from the findings of t tests. After summarise.
 void summarise_reach(Comparison& comparison, const Golden& golden, const CompareOptions& options);
 
-/// The verdict where nothing is found: PASS if an error of the specified size would have been,
-/// INCONCLUSIVE if not. `remark` ends the reason.
-void acquit(Comparison& comparison, const CompareOptions& options, const std::string& remark = "");
+/// The verdict if no difference is found: PASS if an error of the specified size is detectable, else
+/// INCONCLUSIVE. `remark` ends the reason.
+void pass_or_inconclusive(Comparison& comparison, const CompareOptions& options,
+                          const std::string& remark = "");
 
-/// FAIL for the suspicion; `how` goes on from it.
-void convict(Comparison& comparison, const std::string& how);
+/// FAIL for the suspicion. `how` follows the description of the suspicion in the reason.
+void fail(Comparison& comparison, const std::string& how);
 
-/// The verdict of the first stage if it is already certain; false if the suspicion needs another look.
-/// `can_render_again`: a fresh stage follows. Then light that all batches lack alike is not missing
-/// beyond doubt (Finding::darker_without_noise).
+/// Sets the verdict if the first stage is enough for one; false if the suspicion needs another stage.
+/// `can_render_again`: another stage is possible. Then a finding that is darker_without_noise is not
+/// enough for FAIL.
 bool decide_at_once(Comparison& comparison, const CompareOptions& options,
                     bool can_render_again = false);
 
-/// Decides on a picture that was inconclusive and has a few pixels far brighter than the golden's, by
-/// the comparison `without` them: FAIL if that is too bright all the same. Else it stays INCONCLUSIVE,
-/// and the reason says what is found without them if they were what hindered.
+/// For a picture that is INCONCLUSIVE and has a few pixels far brighter than the golden's: FAIL if the
+/// comparison `without` these pixels is too bright at the certainty level. Else it stays INCONCLUSIVE;
+/// if only these pixels prevent a verdict, the reason states the one without them.
 void decide_without(Comparison& comparison, const Comparison& without, const CompareOptions& options);
 
 } // namespace golden

@@ -22,7 +22,7 @@ std::string reason(int error_number)
     return std::generic_category().message(error_number);
 }
 
-/// Where a write to `path` lands: behind symbolic links. Throws if no file can stand there.
+/// The target of a write to `path`, symbolic links followed. Throws if it cannot be a file.
 fs::path destination(const fs::path& path)
 {
     if (!path.has_filename()) throw ImageError(path, "names no file");
@@ -38,7 +38,7 @@ fs::path destination(const fs::path& path)
     return target;
 }
 
-/// A file that vanishes unless it is given its final name.
+/// A temporary file, removed unless it gets its final name.
 class TemporaryFile {
 public:
     /// Creates an empty file beside `target`. Throws ImageError, about `path`.

@@ -1,6 +1,6 @@
 #pragma once
 
-// Files that are there whole or not at all.
+// Files that are written completely or not at all.
 
 #include <filesystem>
 #include <string>
@@ -9,12 +9,12 @@
 namespace images {
 
 /// Makes `bytes` the content of the file `path`: writes them under a temporary name in the same folder,
-/// waits until they are on the disk, and renames. Whatever goes wrong, a file that stood there before
-/// stands there still, and no temporary remains. A symbolic link is followed. Throws ImageError.
+/// waits until they are on the disk, and renames. After an error an earlier file is unchanged and no
+/// temporary file remains. A symbolic link is followed. Throws ImageError.
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// Throws the ImageError that write_atomically would throw for want of a folder, of permission, or
-/// because `path` is no place for a file; leaves nothing behind.
+/// Throws the ImageError that write_atomically would throw for a missing folder, a missing permission,
+/// or a `path` that cannot be a file. Leaves no file behind.
 void check_place(const std::filesystem::path& path);
 
 /// The bytes of the regular file `path`. Throws ImageError.

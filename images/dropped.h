@@ -1,6 +1,6 @@
 #pragma once
 
-// What was left out of a picture because it is not finite.
+// Contributions that were left out of a picture because they are not finite.
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
-// OpenEXR pictures: 32-bit floats with names, so that one file holds mean, standard error, layers, what
-// the picture says about its making, and all it takes to go on rendering.
+// OpenEXR pictures: 32-bit floats by name. One file holds mean, standard error, layers, metadata, and
+// the state from which the render can be continued.
 //
 //   R G B                            mean
 //   se.R se.G se.B                   standard error of the mean
@@ -24,7 +24,7 @@ namespace images {
 /// has neither zero bytes nor more than 200 bytes.
 using Layers = std::map<std::string, Image>;
 
-/// Whether a file can be rendered on from. Goldens are finished: they are stored without their state.
+/// Whether a file holds the state from which the render can be continued. Finished goldens do not.
 enum class FilmState { keep, omit };
 
 /// Writes the film as ZIP-compressed EXR (see the head of this file), values rounded to float but for
@@ -37,7 +37,7 @@ void write_exr(const std::filesystem::path& path, const Film& film, const Metada
 struct ExrPicture {
     Image mean;
     std::optional<Image> standard_error;
-    Layers layers; // complete R, G, B triples; other channels (depth, alpha, ...) are passed over
+    Layers layers; // complete R, G, B triples; other channels (depth, alpha, ...) are ignored
     Metadata metadata;
     std::optional<Film> film; // the exact state
 };
@@ -45,8 +45,8 @@ struct ExrPicture {
 /// Reads one of our files or another renderer's: half or float, scan lines or tiles, any order of
 /// channels. The picture is the data window, wherever it lies. Values may be NaN (see
 /// first_non_finite). `layer`, if it is not empty, is the picture to take instead of R, G, B; standard
-/// error and state, which belong to those, are left out then. Throws ImageError for what is no such
-/// picture: several parts, deep data, no R, G and B, no such layer, an incomplete state, damage.
+/// error and state, which belong to those, are left out then. Throws ImageError for other files: several
+/// parts, deep data, no R, G and B, no such layer, an incomplete state, damage.
 ExrPicture read_exr(const std::filesystem::path& path, const std::string& layer = "");
 
 } // namespace images

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the reader and the writer of EXR files must agree on.
+// Names and formats that the reader and the writer of EXR files share.
 
 #include <array>
 #include <bit>

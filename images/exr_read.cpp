@@ -116,11 +116,10 @@ private:
         return {path.filename().string(), bytes};
     }
 
-    /// Asks whether the file is long enough to hold its pixels, before memory is asked for.
+    /// Throws unless the file is long enough to hold its pixels. Called before memory is allocated.
     void check_bytes(std::size_t bytes) const
     {
-        // Deflate's best is 1032 to 1 and the other methods stay below that, but for DWA, which stacks
-        // two.
+        // Deflate compresses by at most 1032 to 1, the other methods by less; DWA applies two of them.
         constexpr double best_ratio = 1032.0;
         const Imf::Compression method = header().compression();
         if (method == Imf::DWAA_COMPRESSION || method == Imf::DWAB_COMPRESSION) return;
@@ -188,7 +187,7 @@ Metadata read_metadata(const Imf::Header& header)
     return metadata;
 }
 
-/// The names of the complete layers that are neither ours by meaning nor the picture itself.
+/// The names of the complete layers other than the picture, its standard error and its state.
 std::vector<std::string> layer_names(const Reader& reader)
 {
     std::vector<std::string> names;
@@ -201,8 +200,8 @@ std::vector<std::string> layer_names(const Reader& reader)
     return names;
 }
 
-/// Throws, with the layers that there are, if a picture in layers has not the one that is asked for.
-/// What has no layers is told by its channels.
+/// Throws, with the names of the layers, if the file has not the one of that name. For a file without
+/// layers the message names its channels.
 void expect_picture(const fs::path& path, const Reader& reader, const std::string& layer,
                     const std::vector<std::string>& names)
 {

@@ -24,7 +24,7 @@ using namespace exr_format;
 
 namespace {
 
-/// An EXR file in memory: only what is complete goes to the disk.
+/// An EXR file in memory: it is written to the disk when it is complete.
 class MemoryOutput : public Imf::OStream {
 public:
     MemoryOutput() : OStream("memory") {}

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a file holds, by the ending of its name.
+// The ending of a file's name.
 
 #include <algorithm>
 #include <filesystem>

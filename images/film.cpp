@@ -1,5 +1,5 @@
-// Mean and variance in one pass: each batch moves the mean by its share and adds to the squares the
-// product of its distances from the old and from the new mean. [Welford 1962]
+// Mean and variance in one pass [Welford 1962]: batch number n moves the mean by 1/n of its distance and
+// adds to the squares the product of its distances from the old and from the new mean.
 // Only + - * / and sqrt are used, which IEEE 754 rounds alike on every machine.
 
 #include "images/film.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// A film accumulates batches of a render and knows the standard error of their mean.
+// A film accumulates batches of a render: their mean and its standard error.
 
 #include "images/image.h"
 

@@ -35,7 +35,7 @@ Kernel kernel(int radius, F&& weight)
     return k;
 }
 
-/// The plane filtered along rows by `x` and along columns by `y`; beyond the border it goes on as at
+/// The plane filtered along rows by `x` and along columns by `y`; beyond the border it has the values of
 /// the border.
 std::vector<double> filter(const std::vector<double>& plane, int width, int height, const Kernel& x,
                            const Kernel& y)
@@ -81,7 +81,7 @@ struct Sensitivity {
 constexpr Sensitivity sensitivity[3] = {
     {1.0, 0.0047, 0.0, 1e-5}, {1.0, 0.0053, 0.0, 1e-5}, {34.1, 0.04, 13.5, 0.025}};
 
-/// What the eye sees of the picture from its distance, as CIELAB with the Hunt effect.
+/// The picture filtered by the contrast sensitivity of the eye, as CIELAB with the Hunt effect.
 Image seen(const Image& opponent, double pixels_per_degree)
 {
     const int radius =

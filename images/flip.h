@@ -1,6 +1,6 @@
 #pragma once
 
-// How different two pictures look to a person who flips between them: a map for the eye, not a verdict.
+// FLIP: the visible difference of two pictures that are shown in turn.
 
 #include "images/image.h"
 

@@ -14,7 +14,7 @@ using flip_colours::xyz_of_rgb;
 
 namespace {
 
-/// What cameras and displays do to radiances: the ACES curve (k0 x^2 + k1 x) / (k3 x^2 + k4 x + k5) in
+/// The tone curve of cameras and displays: the ACES curve (k0 x^2 + k1 x) / (k3 x^2 + k4 x + k5) in
 /// the form that the papers use [Narkowicz 2016], exposure factor 0.6 included.
 constexpr double k0 = 0.6 * 0.6 * 2.51;
 constexpr double k1 = 0.6 * 0.03;
@@ -29,7 +29,7 @@ Image displayed(const Image& image, double stops)
     for (Rgb& pixel : result.pixels)
         for (int c = 0; c < 3; ++c) {
             const double x = std::max(pixel[c], 0.0) * factor;
-            // Far beyond white: the quotient's limit, which is clamped anyway; squares would overflow.
+            // The limit of the quotient, where the squares would overflow.
             pixel[c] =
                 x > 1e6 ? 1.0 : std::clamp((k0 * x * x + k1 * x) / (k3 * x * x + k4 * x + k5), 0.0, 1.0);
         }
@@ -54,7 +54,7 @@ Exposures flip_exposures(const Image& reference)
     constexpr double c = -t * k5;
     const double x = (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a);
     const double start = std::log2(x / luminance.back());
-    // A picture that is black by more than half has no median exposure: 10 stops then.
+    // A picture with more than half of its pixels black has no median exposure: 10 stops then.
     const double stop = median > 0.0 ? std::log2(x / median) : start + 10.0;
     return {start, stop, std::max(2, static_cast<int>(std::ceil(stop - start)))};
 }

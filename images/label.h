@@ -1,6 +1,6 @@
 #pragma once
 
-// Words in a picture.
+// Text in a picture.
 
 #include "images/image.h"
 
@@ -12,7 +12,7 @@ namespace images {
 /// pixels high; what falls outside the image is cut off.
 void draw_text(Image& image, int x, int y, const std::string& text, const Rgb& color, int scale = 1);
 
-/// The width in pixels of what draw_text draws.
+/// The width in pixels of the text of draw_text.
 int text_width(const std::string& text, int scale = 1);
 
 } // namespace images

@@ -27,8 +27,8 @@ bool is_space(char c)
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/// Takes the word at the head of `bytes` and the white space behind it: one character if `last`, since
-/// what follows may be data that looks like white space.
+/// Removes the word at the head of `bytes` and the white space behind it: one character if `last`, since
+/// the data that follow may begin with bytes of white space.
 std::string_view take_word(const fs::path& path, std::string_view& bytes, bool last = false)
 {
     constexpr std::size_t longest = 32;

@@ -9,7 +9,7 @@
 namespace images {
 
 /// Throws ImageError unless a picture of this size can be stored: at least 1x1, at most 2^16 pixels a
-/// side and 2^28 together. What claims more is a damaged header, not a picture.
+/// side and 2^28 together. A larger size is taken for a damaged header.
 inline void check_size(const std::filesystem::path& path, long long width, long long height)
 {
     constexpr long long max_side = 1ll << 16;

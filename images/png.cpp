@@ -27,7 +27,7 @@ Srgb8 to_srgb8(const Rgb& linear, double exposure)
     if (std::isnan(linear.r) || std::isnan(linear.g) || std::isnan(linear.b)) return nan_color;
     Srgb8 bytes{};
     for (int channel = 0; channel < 3; ++channel) {
-        // exp2 may overflow to infinity, and 0 times that is no number: black stays black.
+        // exp2 may overflow to infinity, and 0 times infinity is NaN: black stays black.
         const double exposed = linear[channel] > 0.0 ? linear[channel] * std::exp2(exposure) : 0.0;
         bytes[static_cast<std::size_t>(channel)] =
             static_cast<std::uint8_t>(std::lround(255.0 * encode_srgb(std::min(exposed, 1.0))));

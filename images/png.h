@@ -13,7 +13,7 @@ namespace images {
 
 using Srgb8 = std::array<std::uint8_t, 3>;
 
-/// What marks a pixel with a NaN channel: a colour that no one overlooks.
+/// The colour of a pixel with a NaN channel.
 constexpr Srgb8 nan_color = {255, 0, 255};
 
 /// The colour `linear` * 2^exposure (stops) in sRGB [IEC 61966-2-1], rounded to the nearest of 0..255;

@@ -1,7 +1,6 @@
 #pragma once
 
-// What every renderer of this project can be asked for, whatever computes it. Plain data: kernels may
-// include it.
+// The options that all renderers of this project have. Plain data: kernels may include it.
 
 #include <cstdint>
 #include <limits>
@@ -11,7 +10,7 @@ namespace images {
 enum class Integrator {
     path, // emission hits and next events, weighted against each other alone
     bdpt, // all strategies
-    light // the light image alone, with weight 1
+    light // light image alone, with weight 1
 };
 
 /// How strategies that can make the same path share it [Veach 1997, sec. 9.2].
@@ -21,8 +20,8 @@ enum class Heuristic {
 };
 
 /// Whether a batch also holds a picture of each strategy (s, t). Weighted, each path counts with its
-/// weight, and the pictures add up to the mean; unweighted, each shows what its strategy would if it
-/// were the only one.
+/// weight, and the pictures add up to the mean; unweighted, each is the picture of its strategy with
+/// weight 1.
 enum class StrategyPictures { none, weighted, unweighted };
 
 inline constexpr int unlimited_edges = std::numeric_limits<int>::max();
@@ -39,7 +38,7 @@ struct RenderOptions {
     std::uint32_t batch_size = 4;    // samples per pixel of a batch
     /// With pictures, max_edges is at most most_edges_of_strategies.
     StrategyPictures strategies = StrategyPictures::none;
-    bool deterministic = false; // the same bits every time, also where that costs time and memory
+    bool deterministic = false; // the same bits every time, even if that takes more time and memory
 };
 
 } // namespace images

@@ -1,6 +1,6 @@
 #pragma once
 
-// The picture of every strategy (s, t) by itself: what each contributes, or what each would show alone.
+// One picture per strategy (s, t), weighted or unweighted.
 
 #include "images/image.h"
 
@@ -25,7 +25,7 @@ class StrategySums {
 public:
     /// Adds the sums over the `samples` samples per pixel of a batch.
     void add(const Strategies& batch, std::uint32_t samples);
-    /// The mean pictures so far, of those strategies that found anything at all.
+    /// The mean pictures so far, of the strategies with contributions.
     [[nodiscard]] Strategies means() const;
 
 private:

@@ -10,8 +10,8 @@
 
 namespace images {
 
-/// The number that `text` is, all of it, in decimal digits without a sign. None for anything else, and
-/// beyond 2^64 - 1.
+/// The number in `text`, which consists of decimal digits only. None for any other text, and above
+/// 2^64 - 1.
 inline std::optional<std::uint64_t> whole_number(std::string_view text)
 {
     std::uint64_t number = 0;

@@ -20,7 +20,7 @@
 
 #include "scenes/requirements.h"
 
-#include "scenes/emission.h"
+#include "scenes/is_emitter.h"
 #include "scenes/lights.h"
 
 #include <variant>

@@ -36,7 +36,7 @@ int run(CLI::App& app, int argc, char** argv, const Work& work)
     } catch (const CLI::Success& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& error) {
-        return complain(error.what() + (" (" + app.get_name() + " --help lists what there is)"));
+        return complain(error.what() + (" (" + app.get_name() + " --help lists the options)"));
     } catch (const std::exception& error) {
         return complain(error.what());
     }

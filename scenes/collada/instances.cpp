@@ -3,7 +3,7 @@
 #include "scenes/collada/bind_material.h"
 #include "scenes/collada/cameras.h"
 #include "scenes/collada/lights.h"
-#include "scenes/emission.h"
+#include "scenes/is_emitter.h"
 
 #include <glm/geometric.hpp>
 

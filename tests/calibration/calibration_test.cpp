@@ -59,7 +59,7 @@ TEST_P(FalseAlarm, OfASinglePictureIsRareHoweverManySamplesItHas)
             const golden::Comparison comparison =
                 golden::compare_picture(maker.golden({{"batch_size", "4"}}), film.mean(),
                                         4.0 * static_cast<double>(batches), options);
-            suspected += comparison.p < options.accuse;
+            suspected += comparison.p < options.suspicion_level;
             EXPECT_NE(comparison.verdict, golden::Verdict::fail) << comparison.reason;
         }
         // The probability of 5 or more of 16 at a rate of 5% is 1e-3, and 5% is an upper bound.

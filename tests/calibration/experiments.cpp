@@ -101,7 +101,7 @@ FalseAlarms measure_false_alarms(Noise noise, const Plan& plan)
         };
         const golden::Comparison comparison = compare(golden, replay, Method::ranks, options);
         FalseAlarms one;
-        one.suspected = {comparison.p < options.accuse, 1};
+        one.suspected = {comparison.p < options.suspicion_level, 1};
         one.failed = {comparison.verdict == golden::Verdict::fail, 1};
         for (const golden::Finding& finding : comparison.findings) {
             // For a black region no statement is possible: p is 1.

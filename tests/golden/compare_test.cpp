@@ -41,8 +41,8 @@ TEST_F(Compare, ARightPicturePassesAndSaysWhatItCouldHaveSeen)
         EXPECT_GT(detectable, 0.001);
         EXPECT_LT(detectable, 0.02);
     }
-    ASSERT_TRUE(result.blindest_stratum);
-    EXPECT_GT(result.findings[*result.blindest_stratum].detectable, result.detectable[0]);
+    ASSERT_TRUE(result.least_sensitive_stratum);
+    EXPECT_GT(result.findings[*result.least_sensitive_stratum].detectable, result.detectable[0]);
     EXPECT_EQ(result.findings.size(), 3 * reference().functionals.size());
     EXPECT_EQ(result.golden_batches, 512u);
     EXPECT_EQ(result.coverage, 1.0);
@@ -270,7 +270,7 @@ TEST_F(Compare, ASinglePictureIsJudgedByAnAssumedNoiseAndSaysSo)
     EXPECT_EQ(golden::compare_picture(reference(), picture(0.95), 1024.0).verdict, Verdict::fail);
 }
 
-TEST_F(Compare, ASinglePictureNoisierThanItClaimsIsNotCondemnedForIt)
+TEST_F(Compare, ASinglePictureNoisierThanItClaimsDoesNotFailForIt)
 {
     // 16 samples, said to be 16384.
     const Image noisy = candidate({}, 4, 8).film().mean();
@@ -281,7 +281,7 @@ TEST_F(Compare, ASinglePictureNoisierThanItClaimsIsNotCondemnedForIt)
 
 TEST_F(Compare, TheChanceOfAFalseAlarmIsStated)
 {
-    // One stage: the level of a conviction, and that of dark pixels. Two: at least what both levels
+    // One stage: the certainty level, and the level of dark pixels. Two: at least what both levels
     // would give were the golden known exactly, and below one in a hundred thousand.
     EXPECT_DOUBLE_EQ(golden::compare(reference(), candidate(), Method::ranks).false_alarm, 1e-8 + 1e-9);
     const double two = golden::compare(reference(), stages({{}}), Method::ranks).false_alarm;

@@ -1,6 +1,6 @@
 #include "golden/golden.h"
 #include "images/image_error.h"
-#include "tests/images/generators.h"
+#include "tests/images/picture_generators.h"
 #include "tests/images/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #pragma once
 
 // One golden of a simulated picture for all tests of the judge, and candidates for it. All seeds are
-// fixed: what passes goes on passing. At the levels given, a right picture is accused by chance once in
-// 20 choices of a seed at most.
+// fixed: what passes goes on passing. At the levels given, a right picture is suspected by chance once
+// in 20 choices of a seed at most.
 
 #include "golden/compare.h"
 #include "tests/calibration/simulated_renderer.h"

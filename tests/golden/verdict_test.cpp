@@ -1,7 +1,7 @@
 // When one stage is enough for a verdict.
 
+#include "golden/judge.h"
 #include "golden/verdict.h"
-
 #include "tests/golden/simulated_golden.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ TEST_F(VerdictAtOnce, LightThatNoPictureHasIsMissing)
     EXPECT_TRUE(is_decided({judged(0.0)}, false));
 }
 
-TEST_F(VerdictAtOnce, TooBrightIsBeyondDoubtEitherWay)
+TEST_F(VerdictAtOnce, TooBrightIsCertainEitherWay)
 {
     for (const bool can_render_again : {false, true}) {
         EXPECT_TRUE(is_decided({judged(1.1)}, can_render_again));

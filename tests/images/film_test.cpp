@@ -1,5 +1,5 @@
 #include "images/film.h"
-#include "tests/images/generators.h"
+#include "tests/images/picture_generators.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,5 +1,5 @@
 #include "images/png.h"
-#include "tests/images/generators.h"
+#include "tests/images/picture_generators.h"
 #include "tests/images/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "images/pfm.h"
 #include "images/png.h"
 #include "images/write_image.h"
-#include "tests/images/generators.h"
+#include "tests/images/picture_generators.h"
 #include "tests/images/temporary_folder.h"
 
 #include <gtest/gtest.h>

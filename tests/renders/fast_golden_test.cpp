@@ -4,7 +4,7 @@
 #include "cuda/launch/renderer.h"
 #include "scenes/requirements.h"
 #include "tests/cuda/parallel/on_device.h"
-#include "tests/renders/judged.h"
+#include "tests/renders/judged_render.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 namespace {
 
-using renders_test::Judged;
+using renders_test::JudgedRender;
 using renders_test::Plan;
 using renders_test::RenderBatch;
 
@@ -33,7 +33,8 @@ std::unique_ptr<fast::Renderer> fast_renderer(const Plan& plan, fast::Integrator
                                where == Where::one_thread ? 1 : 2);
 }
 
-Judged judge(const std::string& name, fast::Integrator integrator, Where where, golden::Method method)
+JudgedRender judge(const std::string& name, fast::Integrator integrator, Where where,
+                   golden::Method method)
 {
     const auto make = [&](const Plan& plan) -> RenderBatch {
         std::shared_ptr<fast::Renderer> renderer;
@@ -46,16 +47,16 @@ Judged judge(const std::string& name, fast::Integrator integrator, Where where, 
     };
     const std::string estimator = integrator == fast::Integrator::bdpt   ? "bdpt"
                                   : integrator == fast::Integrator::path ? "path"
-                                                                         : "light";
-    Judged judged = renders_test::judged(name, std::function<RenderBatch(const Plan&)>(make), estimator,
-                                         method, renders_test::short_options());
+                                                                        : "light";
+    JudgedRender judged = renders_test::judge_render(name, std::function<RenderBatch(const Plan&)>(make),
+                                                     estimator, method, renders_test::short_options());
     renders_test::print(name, "fast " + estimator, judged);
     return judged;
 }
 
 void expect_bdpt_agrees(const std::string& name, Where where)
 {
-    const Judged judged = judge(name, fast::Integrator::bdpt, where, golden::Method::ranks);
+    const JudgedRender judged = judge(name, fast::Integrator::bdpt, where, golden::Method::ranks);
     EXPECT_EQ(judged.comparison.verdict, golden::Verdict::pass)
         << renders_test::with_report(name, "fast_bdpt", judged);
 }
@@ -63,7 +64,7 @@ void expect_bdpt_agrees(const std::string& name, Where where)
 /// The estimator differs from the golden's. If its noise is too skewed, the comparison is inconclusive.
 void expect_path_does_not_disagree(const std::string& name, Where where)
 {
-    const Judged judged = judge(name, fast::Integrator::path, where, golden::Method::welch);
+    const JudgedRender judged = judge(name, fast::Integrator::path, where, golden::Method::welch);
     if (name == "point_in_glass") {
         // No eye walk hits a point light, and no shadow ray refracts: path tracing cannot find this
         // light.
@@ -80,7 +81,7 @@ void expect_light_does_not_disagree(const std::string& name, Where where)
     if (needs.bsdfs.contains(scenes::Bsdf::mirror) || needs.bsdfs.contains(scenes::Bsdf::glass))
         GTEST_SKIP()
             << "light tracing cannot find light that the camera sees by way of mirrors or glass";
-    const Judged judged = judge(name, fast::Integrator::light, where, golden::Method::welch);
+    const JudgedRender judged = judge(name, fast::Integrator::light, where, golden::Method::welch);
     EXPECT_NE(judged.comparison.verdict, golden::Verdict::fail)
         << renders_test::with_report(name, "fast_light", judged);
 }

@@ -136,7 +136,7 @@ void print_table()
     for (const Case& c : cases) total += c.right + (kinds.size() - 1.0) * c.wrong;
     cli::Progress progress("renders", 0.0, total, false);
     double done = 0.0;
-    std::string table = "| scene, samples per pixel | would see |";
+    std::string table = "| scene, samples per pixel | detectable error |";
     std::string line = "|---|---|";
     for (const Kind& kind : kinds) {
         table += std::string(" ") + kind.name + " |";

@@ -1,6 +1,6 @@
 // Compares wrong renderers (mistakes.h) with the goldens: each is found.
 
-#include "tests/renders/judged.h"
+#include "tests/renders/judged_render.h"
 #include "tests/renders/mistakes.h"
 
 #include <gtest/gtest.h>
@@ -32,8 +32,8 @@ TEST_P(WrongPictures, AreFound)
 {
     golden::CompareOptions options;
     options.stages = GetParam().stages;
-    const auto judged = renders_test::judged(GetParam().scene, GetParam().integrator, "bdpt",
-                                             golden::Method::ranks, options);
+    const auto judged = renders_test::judge_render(GetParam().scene, GetParam().integrator, "bdpt",
+                                                   golden::Method::ranks, options);
     std::cout << describe(judged.comparison.verdict) << ": " << judged.comparison.reason << '\n';
     EXPECT_EQ(judged.comparison.verdict, golden::Verdict::fail);
 }

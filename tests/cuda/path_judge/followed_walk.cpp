@@ -105,7 +105,7 @@ void require_in_plane(const ref::World& world, const NextStep& step)
 
 } // namespace
 
-void follow(const Setting& setting, ref::Transport carried, const WatchedSample::Walk& recorded,
+void follow(const Setting& setting, ref::Transport carried, const RecordedSample::Walk& recorded,
             std::size_t most_vertices, NextStep step, FollowedWalk& walk)
 {
     const ref::World& world = setting.world;

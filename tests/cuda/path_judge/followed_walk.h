@@ -13,7 +13,7 @@
 
 #include "cuda/parallel/vec.h"
 #include "ref/transport/subpath.h"
-#include "tests/cuda/path_judge/watched_sample.h"
+#include "tests/cuda/path_judge/walk_recorder.h"
 
 #include <stdexcept>
 #include <vector>
@@ -81,11 +81,11 @@ struct FollowedWalk {
 };
 
 /// The light walk of a sample; empty if no emitter has power.
-FollowedWalk followed_light_walk(const Setting& setting, const WatchedSample& sample,
+FollowedWalk followed_light_walk(const Setting& setting, const RecordedSample& sample,
                                  std::size_t most_vertices);
 
 /// The eye walk.
-FollowedWalk followed_eye_walk(const Setting& setting, const WatchedSample& sample);
+FollowedWalk followed_eye_walk(const Setting& setting, const RecordedSample& sample);
 
 /// The next step of a walk: its ray, a bound on the distance of the fast path's ray, and its weight.
 struct NextStep {
@@ -99,7 +99,7 @@ struct NextStep {
 
 /// Follows `recorded` from `step` on, with the reference's next step and its alternatives at each
 /// bounce, and appends to `walk`.
-void follow(const Setting& setting, ref::Transport carried, const WatchedSample::Walk& recorded,
+void follow(const Setting& setting, ref::Transport carried, const RecordedSample::Walk& recorded,
             std::size_t most_vertices, NextStep step, FollowedWalk& walk);
 
 /// The possible next steps of a walk from its vertex v_n: more than one only if the number that

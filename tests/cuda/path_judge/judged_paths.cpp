@@ -56,46 +56,47 @@ fast::PathOptions float_options(const ref::PathOptions& options)
 }
 
 /// The pixel must be that of a point within the error of the film point.
-void require_pixel(std::uint32_t pixel, int width, const Judged& judged)
+void require_pixel(std::uint32_t pixel, int width, const ExpectedContribution& expected)
 {
     const double x = pixel % static_cast<std::uint32_t>(width);
     const double y = pixel / static_cast<std::uint32_t>(width);
-    const double e = judged.film_error;
-    require(judged.x >= x - e && judged.x <= x + 1 + e && judged.y >= y - e && judged.y <= y + 1 + e,
+    const double e = expected.film_error;
+    require(expected.x >= x - e && expected.x <= x + 1 + e && expected.y >= y - e &&
+                expected.y <= y + 1 + e,
             "a light image has a wrong pixel");
 }
 
-void compare(const WatchedSample::Found& found, const Judged& judged, Tally& tally)
+void compare(const RecordedSample::Found& found, const ExpectedContribution& expected, Tally& tally)
 {
     for (int i = 0; i < 3; ++i) {
-        const double bound = judged.value_error * judged.value[i] + underflow;
-        if (!(std::abs(found.value[i] - judged.value[i]) <= bound))
-            differ("value", found.value[i], judged.value[i], bound);
+        const double bound = expected.value_error * expected.value[i] + underflow;
+        if (!(std::abs(found.value[i] - expected.value[i]) <= bound))
+            differ("value", found.value[i], expected.value[i], bound);
     }
-    if (!(std::abs(found.weight - judged.weight) <= judged.weight_error))
-        differ("weight", found.weight, judged.weight, judged.weight_error);
+    if (!(std::abs(found.weight - expected.weight) <= expected.weight_error))
+        differ("weight", found.weight, expected.weight, expected.weight_error);
     ++tally.contributions;
-    if (std::isinf(judged.weight_error)) ++tally.weights_left_open;
+    if (std::isinf(expected.weight_error)) ++tally.weights_left_open;
 }
 
 /// Compares the fast path's contribution by one strategy, or none, with the expected one.
 template <class Strategy>
-void judge_strategy_of(const Setting& setting, const WatchedSample::Found* found, std::size_t t,
+void judge_strategy_of(const Setting& setting, const RecordedSample::Found* found, std::size_t t,
                        const Strategy& strategy, Tally& tally)
 {
     try {
-        const std::optional<Judged> judged = strategy(found != nullptr);
+        const std::optional<ExpectedContribution> expected = strategy(found != nullptr);
         if (found == nullptr) {
-            require(!judged || ref::max_component(judged->value) < underflow,
+            require(!expected || ref::max_component(expected->value) < underflow,
                     "a contribution is missing");
             return;
         }
-        require(judged.has_value(), "an impossible contribution");
+        require(expected.has_value(), "an impossible contribution");
         if (t == 1)
-            require_pixel(found->pixel, setting.world.camera.width(), *judged);
+            require_pixel(found->pixel, setting.world.camera.width(), *expected);
         else
             require(found->pixel == setting.id.pixel, "a sample has a wrong pixel");
-        compare(*found, *judged, tally);
+        compare(*found, *expected, tally);
     } catch (const Undecided& why) {
         ++tally.strategies_left[why.what()];
     } catch (const Grazing& bound) {
@@ -108,11 +109,11 @@ void judge_strategy_of(const Setting& setting, const WatchedSample::Found* found
 
 } // namespace
 
-void judge_sample(const Setting& setting, const WatchedScene& scene, fast::Integrator integrator,
+void judge_sample(const Setting& setting, const WalkRecorder& scene, fast::Integrator integrator,
                   Tally& tally)
 {
-    const WatchedSample sample = scene.sample(integrator, float_options(setting.options),
-                                              {setting.id.seed, setting.id.pixel, setting.id.sample});
+    const RecordedSample sample = scene.sample(integrator, float_options(setting.options),
+                                               {setting.id.seed, setting.id.pixel, setting.id.sample});
     require(!sample.found_twice, "a strategy contributes twice");
     ++tally.samples;
     FollowedWalk y;

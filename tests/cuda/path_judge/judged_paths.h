@@ -28,11 +28,12 @@ struct Tally {
 };
 
 /// Traces one sample on the fast path and judges all of its results. Throws Disagreement, with (s, t).
-void judge_sample(const Setting& setting, const WatchedScene& scene, fast::Integrator integrator,
+void judge_sample(const Setting& setting, const WalkRecorder& scene, fast::Integrator integrator,
                   Tally& tally);
 
-/// The expected result of one strategy of a sample.
-struct Judged {
+/// The contribution of one strategy of a sample by the reference, with bounds of the difference that
+/// rounding explains.
+struct ExpectedContribution {
     ref::Rgb value;
     double value_error; // relative
     double weight;
@@ -49,10 +50,11 @@ public:
               const FollowedWalk& z)
         : setting_(setting), integrator_(integrator), y_(y), z_(z)
     {}
-    [[nodiscard]] std::optional<Judged> emission_hit(std::size_t t) const;
-    [[nodiscard]] std::optional<Judged> next_event(std::size_t t, bool found) const;
-    [[nodiscard]] std::optional<Judged> light_image(std::size_t s, bool found) const;
-    [[nodiscard]] std::optional<Judged> inner_connection(std::size_t s, std::size_t t, bool found) const;
+    [[nodiscard]] std::optional<ExpectedContribution> emission_hit(std::size_t t) const;
+    [[nodiscard]] std::optional<ExpectedContribution> next_event(std::size_t t, bool found) const;
+    [[nodiscard]] std::optional<ExpectedContribution> light_image(std::size_t s, bool found) const;
+    [[nodiscard]] std::optional<ExpectedContribution> inner_connection(std::size_t s, std::size_t t,
+                                                                       bool found) const;
 
 private:
     /// x_0 ... x_k and the angles of its edges.
@@ -63,7 +65,7 @@ private:
     };
     [[nodiscard]] JoinedPath join(std::size_t s, std::size_t t) const;
     [[nodiscard]] double quotient_error(const JoinedPath& x) const;
-    void weigh(const JoinedPath& x, std::size_t s, Judged& judged) const;
+    void weigh(const JoinedPath& x, std::size_t s, ExpectedContribution& expected) const;
     [[nodiscard]] double path_tracing_weight(const JoinedPath& x, std::size_t s) const;
     /// The relative error of the cosine with `w` at the end of a connection, where w may be off by the
     /// angle `turned`. Throws Grazing if the sign of the cosine is not certain; `at_most` is the value

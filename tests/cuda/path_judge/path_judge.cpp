@@ -42,7 +42,7 @@ LineOfSight PathJudge::line_from(const ref::SurfacePoint& point, const Vec3& w) 
     return line;
 }
 
-std::optional<Judged> PathJudge::emission_hit(std::size_t t) const
+std::optional<ExpectedContribution> PathJudge::emission_hit(std::size_t t) const
 {
     const std::span<const Vertex> z(z_.vertices.data(), t);
     const Vertex& last = z.back();
@@ -52,12 +52,12 @@ std::optional<Judged> PathJudge::emission_hit(std::size_t t) const
         throw Undecided("a connection in the plane of a surface");
     const ref::Rgb value = last.alpha * emitted(setting_.world, last, z[t - 2]);
     if (value == ref::Rgb(0)) return std::nullopt;
-    Judged judged{value, z_.alpha_error[t - 1] + in_product, 0, 0};
-    weigh(join(0, t), 0, judged);
-    return judged;
+    ExpectedContribution expected{value, z_.alpha_error[t - 1] + in_product, 0, 0};
+    weigh(join(0, t), 0, expected);
+    return expected;
 }
 
-std::optional<Judged> PathJudge::light_image(std::size_t s, bool found) const
+std::optional<ExpectedContribution> PathJudge::light_image(std::size_t s, bool found) const
 {
     const ref::World& world = setting_.world;
     const Vertex& last = y_.vertices[s - 1];
@@ -67,8 +67,8 @@ std::optional<Judged> PathJudge::light_image(std::size_t s, bool found) const
     const double ahead = world.camera.cosine(w);
     if (std::abs(ahead) <= cosine_error) throw Undecided("the plane of the eye");
     if (ahead < 0) return std::nullopt;
-    Judged judged{ref::Rgb(0), y_.alpha_error[s - 1] + in_product, 0, 0};
-    judged.value_error += 3 * cosine_error / ahead;
+    ExpectedContribution expected{ref::Rgb(0), y_.alpha_error[s - 1] + in_product, 0, 0};
+    expected.value_error += 3 * cosine_error / ahead;
 
     // The film point. Its error is that of two cosines over that of a third, and that of the scaling.
     const scenes::Camera& source = world.scene.camera.value();
@@ -78,13 +78,13 @@ std::optional<Judged> PathJudge::light_image(std::size_t s, bool found) const
     const double scale = across / (2 * std::tan(source.fov / 2)) / ahead;
     const double right = scale * glm::dot(w, source.right);
     const double up = scale * glm::dot(w, source.up);
-    judged.x = width / 2 + right;
-    judged.y = height / 2 - up;
-    judged.film_error = cosine_error * scale +
-                        (cosine_error / ahead + 4 * roundoff) * (std::abs(right) + std::abs(up)) +
-                        2 * roundoff * (width + height);
-    const double inside = std::min({judged.x, width - judged.x, judged.y, height - judged.y});
-    if (std::abs(inside) <= judged.film_error) throw Undecided("the border of the film");
+    expected.x = width / 2 + right;
+    expected.y = height / 2 - up;
+    expected.film_error = cosine_error * scale +
+                          (cosine_error / ahead + 4 * roundoff) * (std::abs(right) + std::abs(up)) +
+                          2 * roundoff * (width + height);
+    const double inside = std::min({expected.x, width - expected.x, expected.y, height - expected.y});
+    if (std::abs(inside) <= expected.film_error) throw Undecided("the border of the film");
     if (inside < 0) return std::nullopt;
 
     const double measured = ahead * world.camera.importance(w);
@@ -93,13 +93,13 @@ std::optional<Judged> PathJudge::light_image(std::size_t s, bool found) const
             s == 1 ? last.alpha * std::get<scenes::Emission>(material_at(world, last)).radiance
                    : scattered_at_most(last);
         const Vec3 d = last.point.position - eye.point.position;
-        judged.value_error += end_error(y_, s - 1, -w, 0, sent * measured / glm::dot(d, d));
+        expected.value_error += end_error(y_, s - 1, -w, 0, sent * measured / glm::dot(d, d));
     }
     const ref::Rgb scattered =
         s == 1 ? emitted(world, last, eye) : evaluate_bsdf(world, y_.vertices[s - 2], last, eye);
-    judged.value =
+    expected.value =
         last.alpha * scattered * geometric_term(last, eye) * ahead * world.camera.importance(w);
-    if (judged.value == ref::Rgb(0)) return std::nullopt;
+    if (expected.value == ref::Rgb(0)) return std::nullopt;
     LineOfSight line{eye.point.position, end_slack(world, eye.point.position), w, 8 * roundoff, true};
     bool seen = false;
     if (last.kind == Vertex::Kind::surface) {
@@ -112,24 +112,26 @@ std::optional<Judged> PathJudge::light_image(std::size_t s, bool found) const
     }
     if (seen != found) explain_sight(world, line, found);
     if (!seen) return std::nullopt;
-    weigh(join(s, 1), s, judged);
-    return judged;
+    weigh(join(s, 1), s, expected);
+    return expected;
 }
 
-std::optional<Judged> PathJudge::inner_connection(std::size_t s, std::size_t t, bool found) const
+std::optional<ExpectedContribution> PathJudge::inner_connection(std::size_t s, std::size_t t,
+                                                                bool found) const
 {
     const ref::World& world = setting_.world;
     const Vertex& y = y_.vertices[s - 1];
     const Vertex& z = z_.vertices[t - 1];
     if (!scatters(world, y) || !scatters(world, z)) return std::nullopt;
     const Vec3 w = direction(z, y);
-    Judged judged{ref::Rgb(0), y_.alpha_error[s - 1] + z_.alpha_error[t - 1] + in_product, 0, 0};
+    ExpectedContribution expected{ref::Rgb(0),
+                                  y_.alpha_error[s - 1] + z_.alpha_error[t - 1] + in_product, 0, 0};
     const Vec3 d = y.point.position - z.point.position;
     const ref::Rgb at_most = scattered_at_most(y) * scattered_at_most(z) / glm::dot(d, d);
-    judged.value_error += end_error(y_, s - 1, w, 0, at_most) + end_error(z_, t - 1, w, 0, at_most);
-    judged.value = y.alpha * evaluate_bsdf(world, y_.vertices[s - 2], y, z) *
-                   evaluate_bsdf(world, y, z, z_.vertices[t - 2]) * geometric_term(y, z) * z.alpha;
-    if (judged.value == ref::Rgb(0)) return std::nullopt;
+    expected.value_error += end_error(y_, s - 1, w, 0, at_most) + end_error(z_, t - 1, w, 0, at_most);
+    expected.value = y.alpha * evaluate_bsdf(world, y_.vertices[s - 2], y, z) *
+                     evaluate_bsdf(world, y, z, z_.vertices[t - 2]) * geometric_term(y, z) * z.alpha;
+    if (expected.value == ref::Rgb(0)) return std::nullopt;
     const bool seen = visible(world.geometry, y.point, z.point);
     if (seen != found) {
         LineOfSight line = line_from(z.point, w);
@@ -141,8 +143,8 @@ std::optional<Judged> PathJudge::inner_connection(std::size_t s, std::size_t t, 
         explain_sight(world, line, found);
     }
     if (!seen) return std::nullopt;
-    weigh(join(s, t), s, judged);
-    return judged;
+    weigh(join(s, t), s, expected);
+    return expected;
 }
 
 } // namespace cuda_test

@@ -13,7 +13,7 @@ namespace cuda_test {
 using ref::Vec3;
 using ref::Vertex;
 
-std::optional<Judged> PathJudge::next_event(std::size_t t, bool found) const
+std::optional<ExpectedContribution> PathJudge::next_event(std::size_t t, bool found) const
 {
     const ref::World& world = setting_.world;
     const Vertex& last = z_.vertices[t - 1];
@@ -101,13 +101,13 @@ std::optional<Judged> PathJudge::next_event(std::size_t t, bool found) const
     if (seen != found) explain_sight(world, line, found);
     if (!seen) return std::nullopt;
 
-    Judged judged{value, error, 0, 0};
+    ExpectedContribution expected{value, error, 0, 0};
     JoinedPath x = join(0, t);
     x.vertices.insert(x.vertices.begin(), &y0);
     x.turned.insert(x.turned.begin(), turned);
     x.normal_error = light_normal_error;
-    weigh(x, 1, judged);
-    return judged;
+    weigh(x, 1, expected);
+    return expected;
 }
 
 } // namespace cuda_test

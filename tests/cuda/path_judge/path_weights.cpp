@@ -123,10 +123,10 @@ double PathJudge::path_tracing_weight(const JoinedPath& x, std::size_t s) const
     return s == 0 ? balanced(by_hit, by_event) : balanced(by_event, by_hit);
 }
 
-void PathJudge::weigh(const JoinedPath& x, std::size_t s, Judged& judged) const
+void PathJudge::weigh(const JoinedPath& x, std::size_t s, ExpectedContribution& expected) const
 {
-    judged.weight_error = 0;
-    judged.weight = 1;
+    expected.weight_error = 0;
+    expected.weight = 1;
     if (integrator_ == fast::Integrator::light) return;
     const bool power =
         integrator_ == fast::Integrator::bdpt && setting_.options.heuristic == ref::Heuristic::power;
@@ -135,10 +135,10 @@ void PathJudge::weigh(const JoinedPath& x, std::size_t s, Judged& judged) const
                          ? path_tracing_weight(x, s)
                          : mis_weight(setting_.world, setting_.options, x.vertices, s);
     const auto vertices = static_cast<double>(x.vertices.size());
-    judged.weight = w;
-    judged.weight_error = error <= worst_quotient
-                              ? 1.1 * w * (1 - w) * error + (7 * vertices + 8) * roundoff * w
-                              : std::numeric_limits<double>::infinity();
+    expected.weight = w;
+    expected.weight_error = error <= worst_quotient
+                                ? 1.1 * w * (1 - w) * error + (7 * vertices + 8) * roundoff * w
+                                : std::numeric_limits<double>::infinity();
 }
 
 } // namespace cuda_test

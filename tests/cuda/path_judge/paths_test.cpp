@@ -67,7 +67,7 @@ public:
 private:
     scenes::Scene scene_;
     ref::World world_;
-    cuda_test::WatchedScene floats_;
+    cuda_test::WalkRecorder floats_;
 };
 
 /// The scene without some of its surfaces and lights, so that a failure shrinks to those that matter.

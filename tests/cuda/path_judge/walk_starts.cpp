@@ -180,7 +180,7 @@ NextStep first_of_light(const Setting& setting, const fast::SampledEmission& emi
 
 } // namespace
 
-FollowedWalk followed_light_walk(const Setting& setting, const WatchedSample& sample,
+FollowedWalk followed_light_walk(const Setting& setting, const RecordedSample& sample,
                                  std::size_t most_vertices)
 {
     const ref::Uniforms position = float_uniforms(setting.id, ref::Event::emission_position);
@@ -211,7 +211,7 @@ FollowedWalk followed_light_walk(const Setting& setting, const WatchedSample& sa
     return walk;
 }
 
-FollowedWalk followed_eye_walk(const Setting& setting, const WatchedSample& sample)
+FollowedWalk followed_eye_walk(const Setting& setting, const RecordedSample& sample)
 {
     const ref::Camera& camera = setting.world.camera;
     const auto width = static_cast<std::uint32_t>(camera.width());

@@ -4,7 +4,7 @@
 #include "cuda/launch/batch_renderer.h"
 #include "cuda/launch/host_kernels.h"
 #include "tests/cuda/parallel/on_device.h"
-#include "tests/cuda/transport/recording.h"
+#include "tests/cuda/transport/contribution_recorder.h"
 #include "tests/ref/transport/scene_files.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@
 
 namespace {
 
-using cuda_test::Recorded;
-using cuda_test::Recorder;
+using cuda_test::ContributionRecorder;
+using cuda_test::RecordedContribution;
 using fast::Integrator;
 using transport_test::our_scene;
 
@@ -147,12 +147,12 @@ RC_GTEST_PROP(BatchRenderer, DeterministicBitsDependOnNothingButTheSamples, ())
 images::Image sum_of_samples(const scenes::Scene& scene, const images::RenderOptions& options,
                              std::uint64_t number)
 {
-    const Recorder recorder(scene, width, height);
+    const ContributionRecorder recorder(scene, width, height);
     images::Image sum(width, height);
     for (std::uint32_t pixel = 0; pixel < width * height; ++pixel)
         for (std::uint32_t i = 0; i < options.batch_size; ++i) {
             const auto sample = static_cast<std::uint32_t>(number * options.batch_size + i);
-            for (const Recorded& c :
+            for (const RecordedContribution& c :
                  recorder.sample(recorder.needs(), options.integrator,
                                  {options.seed, options.max_edges, options.heuristic},
                                  {options.seed, pixel, sample}))
@@ -224,10 +224,10 @@ TEST(BatchRenderer, UnweightedLayersHoldWhatEachStrategyFound)
     const auto renderer = fast::host_renderer(scene, width, height, options, 2);
     const images::Batch batch = *renderer->render_batch(0, {});
     std::map<std::pair<int, int>, images::Rgb> expected;
-    const Recorder recorder(scene, width, height);
+    const ContributionRecorder recorder(scene, width, height);
     for (std::uint32_t pixel = 0; pixel < width * height; ++pixel)
         for (std::uint32_t sample = 0; sample < options.batch_size; ++sample)
-            for (const Recorded& c :
+            for (const RecordedContribution& c :
                  recorder.sample(recorder.needs(), Integrator::bdpt, {7, 5, fast::Heuristic::balance},
                                  {7, pixel, sample}))
                 expected[{c.s, c.t}] += images::Rgb(c.value);
@@ -284,7 +284,7 @@ TEST(Needs, LeavingOutWhatASceneDoesNotHaveChangesNothing)
     bool seen[3][2] = {};
     for (const auto& file : transport_test::our_scene_files()) {
         const scenes::Scene scene = scenes::read_scene(file);
-        const Recorder recorder(scene, width, height);
+        const ContributionRecorder recorder(scene, width, height);
         const fast::Needs needs = recorder.needs();
         seen[0][needs.spheres ? 1 : 0] = true;
         seen[1][needs.specular ? 1 : 0] = true;

@@ -1,0 +1,193 @@
+#include "cli/compare_candidate.h"
+
+#include "cli/compare_scene.h"
+#include "cli/render_metadata.h"
+#include "golden/compare.h"
+#include "golden/independence.h"
+#include "golden/reason.h"
+#include "images/file_ending.h"
+#include "images/image_error.h"
+#include "images/non_finite.h"
+#include "images/pfm.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view batch_prefix = "batch."; // of the layers that render --keep-batches writes
+
+images::ExrPicture read_picture(const fs::path& path, const std::string& layer)
+{
+    images::ExrPicture picture;
+    if (images::has_ending(path, ".exr"))
+        picture = images::read_exr(path, layer);
+    else if (images::has_ending(path, ".pfm") && !layer.empty())
+        throw images::ImageError(path, "has no layers (--layer " + layer + ")");
+    else if (images::has_ending(path, ".pfm"))
+        picture.mean = images::read_pfm(path);
+    else
+        throw images::ImageError(path, "is no .exr, .pfm or .dae");
+    if (const auto fault = images::say_non_finite(picture.mean)) throw images::ImageError(path, *fault);
+    return picture;
+}
+
+void expect_size(const fs::path& path, const images::Image& image, const golden::Golden& golden)
+{
+    if (image.width != golden.mean.width || image.height != golden.mean.height)
+        throw images::ImageError(path, "has " + std::to_string(image.width) + "x" +
+                                           std::to_string(image.height) + " pixels, the golden " +
+                                           std::to_string(golden.mean.width) + "x" +
+                                           std::to_string(golden.mean.height));
+}
+
+double samples_of(const std::string& file, const images::Metadata& metadata,
+                  const CompareCommand& options)
+{
+    if (options.samples) return *options.samples;
+    const std::string text = value_of(metadata, "samples");
+    double samples = 0.0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), samples);
+    if (error != std::errc() || rest != text.data() + text.size())
+        throw std::invalid_argument(file + ": does not say its number of samples per pixel: give -s");
+    return samples;
+}
+
+/// golden::check_comparable, with an error that names the file.
+void check_file(const golden::Golden& golden, const std::string& file, const images::Metadata& metadata,
+                golden::Method method)
+{
+    try {
+        golden::check_comparable(golden, metadata, method);
+    } catch (const std::invalid_argument& error) {
+        throw images::ImageError(file, error.what());
+    }
+}
+
+/// Throws if two of the pictures, which are called `names`, share their noise.
+void expect_independent_pictures(const golden::Golden& golden,
+                                 const std::vector<images::Image>& pictures,
+                                 const std::vector<std::string>& names)
+{
+    if (const auto shared = golden::shared_noise(golden, pictures))
+        throw std::invalid_argument(names[shared->first] + " and " + names[shared->second] + " " +
+                                    shared->why +
+                                    ": they are not independent. Does the renderer ignore "
+                                    "its seed? Give one of them, and its samples by -s");
+}
+
+/// The batches of one file, as layers.
+JudgedCandidate judge_batches(const golden::Golden& golden, const std::string& file,
+                              images::ExrPicture picture)
+{
+    golden::Candidate candidate(golden.functionals);
+    std::vector<images::Image> batches;
+    std::vector<std::string> names;
+    for (const auto& [name, layer] : picture.layers) {
+        if (!name.starts_with(batch_prefix)) continue;
+        if (const auto fault = images::say_non_finite(layer))
+            throw images::ImageError(file, "layer " + name + ": " + *fault);
+        batches.push_back(layer);
+        names.push_back(names.empty() ? file + ": layers " + name : name);
+        candidate.add_batch(layer);
+    }
+    const golden::Method method = same_estimator(picture.metadata, golden.metadata)
+                                      ? golden::Method::ranks
+                                      : golden::Method::welch;
+    check_file(golden, file, picture.metadata, method);
+    expect_independent_pictures(golden, batches, names);
+    golden::Comparison comparison = method == golden::Method::ranks
+                                        ? golden::compare(golden, candidate, method)
+                                        : golden::compare_pictures(golden, batches);
+    return {std::move(comparison), candidate.film().mean(), std::move(picture.metadata),
+            std::move(picture.layers)};
+}
+
+/// Several pictures, `first` the first of them.
+JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<std::string>& files,
+                               images::ExrPicture first, const std::string& layer)
+{
+    std::vector<images::Image> pictures = {first.mean};
+    std::map<std::string, std::string> seeds; // and the file that has it
+    images::Metadata metadata = first.metadata;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        images::ExrPicture picture = i == 0 ? images::ExrPicture{} : read_picture(files[i], layer);
+        if (i > 0) {
+            expect_size(files[i], picture.mean, golden);
+            pictures.push_back(std::move(picture.mean));
+            metadata = picture.metadata;
+        }
+        check_file(golden, files[i], metadata, golden::Method::welch);
+        const std::string seed = value_of(metadata, "seed");
+        const auto [other, is_new] = seeds.emplace(seed, files[i]);
+        if (!is_new && !seed.empty())
+            throw std::invalid_argument(other->second + " and " + files[i] + " have the same seed, " +
+                                        seed + ": they are not independent");
+    }
+    expect_independent_pictures(golden, pictures, files);
+    golden::Comparison comparison = golden::compare_pictures(golden, pictures);
+    images::Film film(golden.mean.width, golden.mean.height);
+    for (const images::Image& picture : pictures) film.add_batch(picture);
+    return {std::move(comparison), film.mean(), std::move(first.metadata), std::move(first.layers)};
+}
+
+JudgedCandidate judge_picture(const golden::Golden& golden, const std::string& file,
+                              images::ExrPicture picture, const CompareCommand& options)
+{
+    check_file(golden, file, picture.metadata, golden::Method::picture);
+    // The samples that a file states are those of the whole.
+    if (options.layer.starts_with(batch_prefix) && !options.samples)
+        throw std::invalid_argument(file + ": layer " + options.layer +
+                                    " is one batch: give its samples by -s");
+    const double samples = samples_of(file, picture.metadata, options);
+    golden::Comparison comparison;
+    try {
+        comparison = golden::compare_picture(golden, picture.mean, samples);
+    } catch (const std::invalid_argument& error) {
+        throw images::ImageError(file, error.what());
+    }
+    return {std::move(comparison), std::move(picture.mean), std::move(picture.metadata),
+            std::move(picture.layers)};
+}
+
+} // namespace
+
+JudgedCandidate judge(const golden::Golden& golden, const std::vector<std::string>& files,
+                      const CompareCommand& options)
+{
+    const bool scene = images::has_ending(files.front(), ".dae");
+    if (!scene && (!options.integrator.empty() || options.seed || options.device != "ref"))
+        throw std::invalid_argument(
+            "--integrator, --device and --seed are for a scene that is rendered here");
+    if (scene && files.size() > 1) throw std::invalid_argument(files[1] + ": a scene is judged alone");
+    if (scene && !options.layer.empty())
+        throw std::invalid_argument("--layer " + options.layer + " is for pictures, .exr");
+    if (options.samples && files.size() > 1)
+        throw std::invalid_argument("--samples is for a single picture or a scene");
+    if (scene) return judge_scene(golden, files.front(), options);
+
+    images::ExrPicture first = read_picture(files.front(), options.layer);
+    expect_size(files.front(), first.mean, golden);
+    const auto batches = std::count_if(first.layers.begin(), first.layers.end(), [](const auto& layer) {
+        return layer.first.starts_with(batch_prefix);
+    });
+    JudgedCandidate judged = files.size() > 1
+                                 ? judge_pictures(golden, files, std::move(first), options.layer)
+                             : batches > 1 && options.layer.empty()
+                                 ? judge_batches(golden, files.front(), std::move(first))
+                                 : judge_picture(golden, files.front(), std::move(first), options);
+    judged.comparison.reason +=
+        golden::say_possible_causes(judged.comparison, golden, judged.metadata, judged.mean);
+    return judged;
+}
+
+} // namespace cli

@@ -1,0 +1,67 @@
+#pragma once
+
+// The subcommand `render`: its options, and the function that adds it (see command.h).
+
+#include "cli/command.h"
+#include "images/render_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cli {
+
+struct RenderCommand {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::string size = "240x160";
+    std::uint64_t samples = 64;
+    std::uint32_t batch_size = 4;
+    unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+    std::string device = "ref";
+    std::string integrator = "path";
+    std::string builder = "sah-leaf";
+    std::string heuristic = "balance";
+    int max_edges = images::unlimited_edges;
+    bool no_roulette = false;
+    bool deterministic = false;
+    std::uint64_t seed = 0;
+    double exposure = 0.0;
+    bool frame = false;
+    bool resume = false;
+    double watch = 0.0; // seconds; 0: write once, at the end
+    std::string strategies;
+    std::string strategies_picture;
+    bool unweighted = false;
+    bool keep_batches = false;
+    bool json = false;
+    bool quiet = false;
+};
+
+/// Adds the options to `command`, which sets `options` when it is parsed.
+void add_render_options(CLI::App& command, RenderCommand& options);
+
+/// Unless a batch size was `given`: takes the largest one up to the default that divides the samples, so
+/// that any number of samples is whole batches.
+void settle_batch_size(RenderCommand& options, bool given);
+
+/// Whether a picture of every strategy is to be written.
+bool wants_layers(const RenderCommand& options);
+
+/// Throws std::invalid_argument or images::ImageError for options that exclude each other, and for files
+/// that cannot be written.
+void check(const RenderCommand& options);
+
+/// Throws std::invalid_argument unless `samples` per pixel are whole batches.
+void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size);
+
+/// The options as renderers take them.
+images::RenderOptions render_options(const RenderCommand& options);
+
+/// Adds the subcommand to `program`.
+void add_render_command(CLI::App& program, Work& work);
+
+} // namespace cli

@@ -1,0 +1,20 @@
+#pragma once
+
+// The metadata by which a render describes itself.
+
+#include "cli/render_command.h"
+#include "images/film.h"
+#include "scenes/scene.h"
+
+#include <string>
+
+namespace cli {
+
+/// All parameters that the picture depends on. They must be equal for one render to continue another.
+/// Threads and tree builder change no bit and are not among them.
+images::Metadata describe(const RenderCommand& options, const scenes::Scene& scene);
+
+/// The metadata's entry `key`; the empty string if there is none.
+std::string value_of(const images::Metadata& metadata, const std::string& key);
+
+} // namespace cli

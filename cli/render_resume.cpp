@@ -1,0 +1,59 @@
+#include "cli/render_resume.h"
+
+#include "cli/render_metadata.h"
+#include "cli/scene_input.h"
+#include "images/exr.h"
+#include "images/file_ending.h"
+#include "images/whole_number.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+namespace cli {
+
+images::Film starting_film(const RenderCommand& options, const images::Metadata& description,
+                           images::Dropped& dropped)
+{
+    const Size size = parse_size(options.size);
+    const std::uint64_t batches = options.samples / options.batch_size;
+    if (!options.resume) return {size.width, size.height};
+    const auto exr = std::ranges::find_if(
+        options.outputs, [](const std::string& path) { return images::has_ending(path, ".exr"); });
+    if (exr == options.outputs.end())
+        throw std::invalid_argument(
+            "--resume needs an .exr among the outputs: only it holds all digits");
+    if (!std::filesystem::exists(*exr)) return {size.width, size.height};
+
+    images::ExrPicture picture = images::read_exr(*exr);
+    if (!picture.film) throw std::invalid_argument(*exr + ": holds no state to resume from");
+    images::Metadata expected = description;
+    expected.try_emplace("device", "ref"); // render_metadata.cpp omits it
+    picture.metadata.try_emplace("device", "ref");
+    for (const auto& [name, value] : expected) {
+        const std::string found = value_of(picture.metadata, name);
+        if (found == value) continue;
+        const bool batch = name == "batch_size"; // may be a default
+        throw std::invalid_argument(*exr + ": cannot resume: its " + name + " is '" + found +
+                                    "', not '" + value + "'" +
+                                    (batch ? ": --batch " + found + " goes on with it" : ""));
+    }
+    const images::Image& mean = picture.film->mean();
+    if (mean.width != size.width || mean.height != size.height)
+        throw std::invalid_argument(*exr + ": cannot resume: it has " + std::to_string(mean.width) +
+                                    "x" + std::to_string(mean.height) + " pixels, not " + options.size);
+    if (picture.film->batches() > batches)
+        throw std::invalid_argument(
+            *exr + ": holds " + std::to_string(picture.film->batches() * options.batch_size) +
+            " samples per pixel already, more than -s " + std::to_string(options.samples));
+    const std::string lacking = value_of(picture.metadata, "dropped");
+    if (!lacking.empty()) {
+        const auto count = images::whole_number(lacking);
+        if (!count)
+            throw std::invalid_argument(*exr + ": its dropped is '" + lacking + "', not a number");
+        dropped.count = *count;
+    }
+    return std::move(*picture.film);
+}
+
+} // namespace cli

@@ -1,0 +1,40 @@
+#include "cli/renderer_for.h"
+
+#include "cli/builders.h"
+#include "cli/scene_input.h"
+#include "cuda/scene/float_notices.h"
+#include "cuda/launch/renderer.h"
+#include "ref/transport/render.h"
+
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+namespace cli {
+
+std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, const scenes::Scene& scene)
+{
+    const Size size = parse_size(options.size);
+    const images::RenderOptions plan = render_options(options);
+    if (options.device == "ref")
+        return ref::renderer(scene, size.width, size.height, plan, options.threads,
+                             builder_named(options.builder));
+    if (!options.quiet)
+        for (const std::string& notice : fast::float_notices(scene))
+            std::cerr << shown_name(options.scene) << ": " << notice << '\n';
+    if (options.device == "host")
+        return fast::host_renderer(scene, size.width, size.height, plan, options.threads);
+    try {
+        return fast::device_renderer(scene, size.width, size.height, plan);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(std::string("--device cuda: ") + error.what());
+    }
+}
+
+std::optional<fast::Needs> kernel_of(const images::Renderer& renderer)
+{
+    const auto* fast = dynamic_cast<const fast::Renderer*>(&renderer);
+    return fast == nullptr ? std::nullopt : std::optional(fast->needs());
+}
+
+} // namespace cli

@@ -1,0 +1,26 @@
+#pragma once
+
+// The levels and limits of a comparison.
+
+#include <cstdint>
+#include <vector>
+
+namespace golden {
+
+struct CompareOptions {
+    /// Chance that the first stage of a right picture suspects a difference, all tests together.
+    double suspicion_level = 0.05;
+    /// Level of each later stage, which tests the one suspected functional, one-sided.
+    double confirmation_level = 1e-7;
+    double certainty_level = 1e-8; // of an adjusted p-value: below it, one stage is enough for FAIL
+    double dark_level = 1e-9;      // of all pixels together: below it, a dark pixel is enough for FAIL
+    /// PASS requires that a relative error of the whole picture of this size is detectable.
+    double specification = 0.005;
+    double power = 0.99;      // chance that a detectable error is suspected
+    double confidence = 0.99; // of the intervals of ratios
+    double rounding = 2e-6;   // relative difference that single precision explains
+    double skewness = 0.15;   // largest |skewness| / sqrt(batches) for which a t test is conclusive
+    std::vector<std::uint64_t> stages = {64, 256}; // batches of each stage
+};
+
+} // namespace golden

@@ -1,0 +1,173 @@
+#include "golden/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace golden {
+
+namespace {
+
+constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
+constexpr double without_end = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+Judge::Judge(const Golden& golden, Method method, const CompareOptions& options)
+    : golden_(golden), functionals_(golden.functionals), method_(method), options_(options),
+      multiplicity_(functionals_, method)
+{
+    for (const images::Rgb& pixel : golden.mean.pixels)
+        brightness_ +=
+            (pixel.r + pixel.g + pixel.b) / (3.0 * static_cast<double>(golden.mean.pixels.size()));
+}
+
+bool Judge::can_test(std::size_t functional) const
+{
+    return method_ == Method::ranks || is_linear(functionals_.at(functional).weight);
+}
+
+Finding Judge::judge(const std::vector<Row>& rows, std::size_t functional, std::size_t channel) const
+{
+    Finding finding = blank(functional, channel);
+    std::vector<double> ours = values_of(rows, functionals_, functional, channel);
+    std::vector<double> theirs = values_of(golden_.reference, functionals_, functional, channel);
+    const Moments candidate = moments(ours);
+    const Moments reference = moments(theirs);
+    if (method_ == Method::ranks) {
+        std::sort(ours.begin(), ours.end());
+        std::sort(theirs.begin(), theirs.end());
+        finding.test = mann_whitney_beyond(ours, theirs, options_.rounding * std::abs(reference.mean));
+        finding.detectable = detectable_by_ranks(finding, theirs, candidate.count);
+    } else {
+        compare_means(finding, mean_estimate(candidate), reference,
+                      std::abs(candidate.skewness) / std::sqrt(candidate.count));
+        if (may_lack_rare_events(candidate, reference, *std::max_element(theirs.begin(), theirs.end()),
+                                 options_.certainty_level))
+            finding.conclusive = false;
+        const bool alike = std::ranges::adjacent_find(ours, std::ranges::not_equal_to()) == ours.end();
+        finding.darker_without_noise = alike && reference.variance > 0.0 && finding.test.z < 0.0;
+    }
+    if (candidate.count >= 2.0 && reference.count >= 2.0)
+        finish(finding, mean_estimate(candidate), mean_estimate(reference));
+    else
+        finding.adjusted_p = bonferroni(finding.test.p, multiplicity_.of(finding.region.kind));
+    return finding;
+}
+
+Finding Judge::judge(const MeanEstimate& candidate, double skewed, std::size_t functional,
+                     std::size_t channel) const
+{
+    Finding finding = blank(functional, channel);
+    const Moments reference = moments(values_of(golden_.reference, functionals_, functional, channel));
+    compare_means(finding, candidate, reference, skewed);
+    finish(finding, candidate, mean_estimate(reference));
+    return finding;
+}
+
+Finding Judge::blank(std::size_t functional, std::size_t channel) const
+{
+    const Functional f = functionals_.at(functional);
+    return {
+        functionals_.regions()[f.region], f.weight,   functional, channel, true, {}, 1.0, not_defined,
+        {not_defined, not_defined},       not_defined};
+}
+
+double Judge::detectable(std::size_t functional, std::size_t channel, double batches) const
+{
+    std::vector<double> values = values_of(golden_.reference, functionals_, functional, channel);
+    std::sort(values.begin(), values.end());
+    return detectable_by_ranks(blank(functional, channel), values, batches);
+}
+
+double Judge::detectable_by_ranks(const Finding& finding, const std::vector<double>& reference,
+                                  double count) const
+{
+    const double level = level_of(finding);
+    if (is_linear(finding.weight))
+        return moments(reference).mean > 0.0 ? detectable_scale(reference, count, level, options_.power)
+                                             : not_defined;
+    const std::size_t at = finding.channel * functionals_.size() + finding.functional;
+    const double slope = static_cast<double>(golden_.slopes[at]) *
+                         functionals_.spread(finding.functional, finding.channel);
+    // To first order in the error.
+    return slope > 0.0 ? detectable_shift(reference, count, level, options_.power) / slope : not_defined;
+}
+
+double Judge::level_of(const Finding& finding) const
+{
+    return options_.suspicion_level / multiplicity_.of(finding.region.kind);
+}
+
+void Judge::compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
+                          double skewed) const
+{
+    const double golden_skewed = std::abs(reference.skewness) / std::sqrt(reference.count);
+    finding.conclusive = std::max(skewed, golden_skewed) <= options_.skewness;
+    const MeanEstimate expected = mean_estimate(reference);
+    finding.test = welch(candidate, expected, options_.rounding * size_of(finding, expected.mean));
+    if (finding.conclusive && expected.mean > 0.0)
+        finding.detectable = detectable_difference(std::sqrt(candidate.variance + expected.variance),
+                                                   welch_degrees(candidate, expected), level_of(finding),
+                                                   options_.power) /
+                             expected.mean;
+    if (expected.mean > 0.0 && finding.region.kind == RegionKind::whole)
+        finding.reach = reach_of(finding, candidate, expected, skewed, golden_skewed);
+}
+
+double Judge::size_of(const Finding& finding, double mean) const
+{
+    if (mean != 0.0) return std::abs(mean);
+    // Where the golden is black the functional is a plain sum. A conversion between colour spaces leaves
+    // rounding errors there, in proportion to the brightness of the picture.
+    return brightness_ * static_cast<double>(finding.region.pixels);
+}
+
+Reach Judge::reach_of(const Finding& finding, const MeanEstimate& candidate,
+                      const MeanEstimate& expected, double skewed, double golden_skewed) const
+{
+    const double level = level_of(finding);
+    // The smallest relative error that is detectable if the difference has standard error 1.
+    const auto unit = [&](double degrees) {
+        return detectable_difference(1.0, degrees, level, options_.power) / expected.mean;
+    };
+    const auto allowed = [&](double degrees) { // variance of the difference
+        return std::pow(options_.specification / unit(degrees), 2.0);
+    };
+    const double room = allowed(expected.degrees);
+    const bool too_skewed = golden_skewed > options_.skewness;
+    Reach reach;
+    reach.limit = too_skewed ? without_end : std::sqrt(expected.variance) * unit(expected.degrees);
+    reach.golden =
+        std::max(2.0 * expected.variance / room, std::pow(golden_skewed / options_.skewness, 2.0));
+    reach.candidate = without_end;
+    if (too_skewed || !(room > expected.variance)) return reach;
+    // With the number of batches B, variances fall as 1 / B and |skewness| / sqrt(B) as 1 / sqrt(B). The
+    // degrees of freedom grow with the number of pictures; those of one picture's pixels stay.
+    const auto enough = [&](double factor) {
+        const double degrees = method_ == Method::welch
+                                   ? std::max(1.0, (candidate.degrees + 1.0) * factor - 1.0)
+                                   : candidate.degrees;
+        const MeanEstimate more{candidate.mean, candidate.variance / factor, degrees};
+        return more.variance + expected.variance <= allowed(welch_degrees(more, expected));
+    };
+    constexpr double smallest = 1e-12;
+    constexpr double largest = 1e12;
+    // Enough with the largest possible number of degrees: the search begins here.
+    double factor = std::max(smallest, candidate.variance / (room - expected.variance));
+    while (factor < largest && !enough(factor)) factor *= 1.1;
+    reach.candidate = std::max(factor, std::pow(skewed / options_.skewness, 2.0));
+    return reach;
+}
+
+void Judge::finish(Finding& finding, const MeanEstimate& candidate, const MeanEstimate& reference) const
+{
+    if (finding.conclusive)
+        finding.adjusted_p = bonferroni(finding.test.p, multiplicity_.of(finding.region.kind));
+    if (reference.mean == 0.0) return;
+    finding.ratio = candidate.mean / reference.mean;
+    finding.interval = ratio_interval(candidate, reference, options_.confidence);
+}
+
+} // namespace golden
