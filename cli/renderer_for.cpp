@@ -2,8 +2,8 @@
 
 #include "cli/builders.h"
 #include "cli/scene_input.h"
-#include "cuda/scene/float_notices.h"
 #include "cuda/launch/renderer.h"
+#include "cuda/scene/float_notices.h"
 #include "ref/transport/render.h"
 
 #include <iostream>

@@ -47,7 +47,7 @@ JudgedRender judge(const std::string& name, fast::Integrator integrator, Where w
     };
     const std::string estimator = integrator == fast::Integrator::bdpt   ? "bdpt"
                                   : integrator == fast::Integrator::path ? "path"
-                                                                        : "light";
+                                                                         : "light";
     JudgedRender judged = renders_test::judge_render(name, std::function<RenderBatch(const Plan&)>(make),
                                                      estimator, method, renders_test::short_options());
     renders_test::print(name, "fast " + estimator, judged);
@@ -105,7 +105,7 @@ TEST_P(FastGolden, LightTracingDoesNotDisagree)
 
 TEST_P(FastGolden, OnADeviceAllAgree)
 {
-    cuda_test::skip_without_device();
+    parallel_test::skip_without_device();
     if (testing::Test::IsSkipped() || testing::Test::HasFailure()) return;
     expect_bdpt_agrees(GetParam(), Where::device);
     expect_path_does_not_disagree(GetParam(), Where::device);

@@ -7,7 +7,7 @@
 
 namespace {
 
-using cuda_test::OnDevice;
+using parallel_test::OnDevice;
 
 TEST(Device, IsDescribedInOneLineWhetherThereIsOneOrNot)
 {

@@ -12,8 +12,8 @@
 
 namespace {
 
-using cuda_test::EveryChoice;
-using cuda_test::InterleavedExecutor;
+using parallel_test::EveryChoice;
+using parallel_test::InterleavedExecutor;
 
 /// Counts its calls per index without an atomic operation: one call per index must be enough.
 struct CountCalls {

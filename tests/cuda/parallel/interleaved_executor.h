@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-namespace cuda_test {
+namespace parallel_test {
 
 class InterleavedExecutor {
 public:
@@ -129,4 +129,4 @@ private:
     std::size_t at_ = 0;
 };
 
-} // namespace cuda_test
+} // namespace parallel_test

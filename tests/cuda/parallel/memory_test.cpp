@@ -94,7 +94,8 @@ TEST(OutOfMemory, NamesTheMemoryTheBytesWantedAndTheBytesFree)
 TEST(OutOfMemory, WhereverItHappensATreeGivesEverythingBackAndTheNextOneIsBuilt)
 {
     trees_test::Random random(1);
-    const auto boxes = cuda_test::rounded(trees_test::boxes(trees_test::Kind::uniform, 100, random));
+    const auto boxes =
+        fast_trees_test::rounded(trees_test::boxes(trees_test::Kind::uniform, 100, random));
     fast::SerialExecutor executor;
     SmallMemory memory(1 << 20);
     std::size_t needed = 0;

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
-namespace cuda_test {
+namespace parallel_test {
 
 /// The GPU, if any; searched for only once.
 inline const fast::Device& found_device()
@@ -35,4 +35,4 @@ protected:
     void SetUp() override { skip_without_device(); }
 };
 
-} // namespace cuda_test
+} // namespace parallel_test

@@ -1,27 +1,32 @@
 #include "tests/cuda/path_judge/followed_walk.h"
 
 #include "tests/cuda/path_judge/path_rounding.h"
-#include "tests/cuda/path_judge/ray_verdict.h"
+#include "tests/cuda/trees/hit_bounds.h"
 
 #include <optional>
 
-namespace cuda_test {
+namespace path_judge_test {
+
+using fast_trees_test::exactly;
+using fast_trees_test::hit_bounds;
+using fast_trees_test::HitBounds;
 
 namespace {
 
 using ref::Vec3;
 
-Verdict verdict_on(const ref::World& world, const fast::Ray& ray, std::uint32_t primitive, double slack)
+HitBounds hit_bounds_on(const ref::World& world, const fast::Ray& ray, std::uint32_t primitive,
+                        double slack)
 {
     const scenes::Scene& scene = world.scene;
     if (primitive < scene.triangles.size()) {
         const auto& v = scene.triangles[primitive].vertices;
-        return verdict(ray, fast::Triangle{{fast::Vec3(v[0]), fast::Vec3(v[1]), fast::Vec3(v[2])}},
-                       slack);
+        return hit_bounds(ray, fast::Triangle{{fast::Vec3(v[0]), fast::Vec3(v[1]), fast::Vec3(v[2])}},
+                          slack);
     }
     const auto& sphere = scene.spheres[primitive - scene.triangles.size()];
-    return verdict(ray, fast::Sphere{fast::Vec3(sphere.center), static_cast<float>(sphere.radius)},
-                   slack);
+    return hit_bounds(ray, fast::Sphere{fast::Vec3(sphere.center), static_cast<float>(sphere.radius)},
+                      slack);
 }
 
 /// Compares the primitive that `ray` found, or no hit, with the hits of the reference on the same ray.
@@ -30,12 +35,13 @@ void require_closest(const ref::World& world, const fast::Ray& ray, double slack
 {
     const auto closest = ref::intersect(world.geometry, exactly(ray));
     if (closest && found != closest->primitive) {
-        const Verdict missed = verdict_on(world, ray, closest->primitive, slack);
-        const bool is_before = !found || missed.highest < verdict_on(world, ray, *found, slack).lowest;
+        const HitBounds missed = hit_bounds_on(world, ray, closest->primitive, slack);
+        const bool is_before =
+            !found || missed.highest < hit_bounds_on(world, ray, *found, slack).lowest;
         require(!(missed.certain && is_before), "a ray misses a primitive that it must hit");
     }
     if (found)
-        require(verdict_on(world, ray, *found, slack).possible,
+        require(hit_bounds_on(world, ray, *found, slack).possible,
                 "a ray hits a primitive that it must miss");
 }
 
@@ -43,7 +49,7 @@ void require_closest(const ref::World& world, const fast::Ray& ray, double slack
 void require_position(const ref::World& world, const fast::Ray& ray, double slack,
                       const fast::SurfacePoint& point)
 {
-    const Verdict verdict = verdict_on(world, ray, point.primitive, slack);
+    const HitBounds bounds = hit_bounds_on(world, ray, point.primitive, slack);
     const Vec3 d(ray.direction);
     const Vec3 from = Vec3(point.position) - Vec3(ray.origin);
     const double t = glm::dot(from, d) / glm::dot(d, d);
@@ -54,7 +60,7 @@ void require_position(const ref::World& world, const fast::Ray& ray, double slac
     if (point.primitive < world.scene.triangles.size()) {
         const auto& v = world.scene.triangles[point.primitive].vertices;
         const double edges = glm::length(v[1] - v[0]) + glm::length(v[2] - v[0]);
-        across += 3 * verdict.margin * edges + moved_off_edges(v, Vec3(point.position));
+        across += 3 * bounds.margin * edges + moved_off_edges(v, Vec3(point.position));
         size += edges;
     } else {
         const auto& sphere = world.scene.spheres[point.primitive - world.scene.triangles.size()];
@@ -65,7 +71,7 @@ void require_position(const ref::World& world, const fast::Ray& ray, double slac
     }
     across += 8 * roundoff * size;
     require(glm::length(from - t * d) <= across, "a vertex is off its ray");
-    require(t >= verdict.lowest - across && t <= verdict.highest + across,
+    require(t >= bounds.lowest - across && t <= bounds.highest + across,
             "a vertex is not where its ray meets the surface");
 }
 
@@ -149,4 +155,4 @@ void follow(const Setting& setting, ref::Transport carried, const RecordedSample
     }
 }
 
-} // namespace cuda_test
+} // namespace path_judge_test

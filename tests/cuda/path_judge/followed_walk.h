@@ -18,7 +18,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace cuda_test {
+namespace path_judge_test {
 
 /// A result of the fast path that rounding cannot explain.
 class Disagreement : public std::runtime_error {
@@ -107,4 +107,4 @@ void follow(const Setting& setting, ref::Transport carried, const RecordedSample
 std::vector<NextStep> next_steps(const Setting& setting, ref::Transport carried,
                                  const fast::WalkVertex& vertex, const NextStep& last);
 
-} // namespace cuda_test
+} // namespace path_judge_test

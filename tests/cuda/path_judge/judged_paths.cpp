@@ -3,7 +3,7 @@
 #include <numeric>
 #include <sstream>
 
-namespace cuda_test {
+namespace path_judge_test {
 
 void Tally::add(const Tally& other)
 {
@@ -163,4 +163,4 @@ void judge_sample(const Setting& setting, const WalkRecorder& scene, fast::Integ
                            ": a contribution that no two walks can make");
 }
 
-} // namespace cuda_test
+} // namespace path_judge_test

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-namespace cuda_test {
+namespace path_judge_test {
 
 /// Counts of the comparisons, and of those that were impossible.
 struct Tally {
@@ -83,4 +83,4 @@ private:
     const FollowedWalk& z_;
 };
 
-} // namespace cuda_test
+} // namespace path_judge_test

@@ -3,7 +3,7 @@
 #include "tests/cuda/path_judge/followed_walk.h"
 #include "tests/cuda/path_judge/path_rounding.h"
 
-namespace cuda_test {
+namespace path_judge_test {
 
 namespace {
 
@@ -71,4 +71,4 @@ std::vector<NextStep> next_steps(const Setting& setting, ref::Transport carried,
     return steps;
 }
 
-} // namespace cuda_test
+} // namespace path_judge_test

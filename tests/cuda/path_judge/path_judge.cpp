@@ -9,7 +9,7 @@
 #include "ref/transport/emission.h"
 #include "ref/transport/visibility.h"
 
-namespace cuda_test {
+namespace path_judge_test {
 
 using ref::Vec3;
 using ref::Vertex;
@@ -147,4 +147,4 @@ std::optional<ExpectedContribution> PathJudge::inner_connection(std::size_t s, s
     return expected;
 }
 
-} // namespace cuda_test
+} // namespace path_judge_test

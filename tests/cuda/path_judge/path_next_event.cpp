@@ -8,7 +8,7 @@
 #include "ref/transport/connect.h"
 #include "ref/transport/visibility.h"
 
-namespace cuda_test {
+namespace path_judge_test {
 
 using ref::Vec3;
 using ref::Vertex;
@@ -110,4 +110,4 @@ std::optional<ExpectedContribution> PathJudge::next_event(std::size_t t, bool fo
     return expected;
 }
 
-} // namespace cuda_test
+} // namespace path_judge_test

@@ -48,7 +48,7 @@
 #include <array>
 #include <cmath>
 
-namespace cuda_test {
+namespace path_judge_test {
 
 constexpr double roundoff = 0x1p-24;
 
@@ -141,4 +141,4 @@ inline double fresnel_error(double cos_i, double error, double eta_i, double eta
     return std::max(std::abs(below - middle), std::abs(above - middle)) + 16 * roundoff;
 }
 
-} // namespace cuda_test
+} // namespace path_judge_test

@@ -15,7 +15,7 @@
 
 #include "ref/transport/emission.h"
 
-namespace cuda_test {
+namespace path_judge_test {
 
 namespace {
 
@@ -141,4 +141,4 @@ void PathJudge::weigh(const JoinedPath& x, std::size_t s, ExpectedContribution& 
                                 : std::numeric_limits<double>::infinity();
 }
 
-} // namespace cuda_test
+} // namespace path_judge_test

@@ -20,8 +20,8 @@
 
 namespace {
 
-using cuda_test::Disagreement;
-using cuda_test::Tally;
+using path_judge_test::Disagreement;
+using path_judge_test::Tally;
 
 constexpr int width = 24;
 constexpr int height = 16;
@@ -46,7 +46,7 @@ std::string name_of(fast::Integrator integrator)
 class BothWings {
 public:
     BothWings(const scenes::Scene& scene, bool roulette)
-        : scene_(cuda_test::float_scene(scene)), world_(scene_, width, height),
+        : scene_(fast_transport_test::float_scene(scene)), world_(scene_, width, height),
           floats_(scene_, width, height, roulette)
     {}
     /// Throws Disagreement that names the sample.
@@ -67,7 +67,7 @@ public:
 private:
     scenes::Scene scene_;
     ref::World world_;
-    cuda_test::WalkRecorder floats_;
+    path_judge_test::WalkRecorder floats_;
 };
 
 /// The scene without some of its surfaces and lights, so that a failure shrinks to those that matter.

@@ -1,13 +1,16 @@
 #include "tests/cuda/path_judge/sight.h"
 
 #include "tests/cuda/path_judge/path_rounding.h"
-#include "tests/cuda/path_judge/ray_verdict.h"
+#include "tests/cuda/trees/hit_bounds.h"
 
 #include "scenes/contacts.h"
 
 #include <cmath>
 
-namespace cuda_test {
+namespace path_judge_test {
+
+using fast_trees_test::hit_bounds;
+using fast_trees_test::HitBounds;
 
 double end_slack(const ref::World& world, const ref::Vec3& end)
 {
@@ -36,14 +39,14 @@ void explain_sight(const ref::World& world, const LineOfSight& line, bool seen)
                                          : line.end == i ? line.to_slack
                                                          : std::max(line.from_slack, far_slack));
         const std::size_t triangles = scene.triangles.size();
-        Verdict judged{};
+        HitBounds judged{};
         if (i < triangles) {
             const auto& v = scene.triangles[i].vertices;
-            judged = verdict(ray, fast::Triangle{{fast::Vec3(v[0]), fast::Vec3(v[1]), fast::Vec3(v[2])}},
-                             slack);
+            judged = hit_bounds(
+                ray, fast::Triangle{{fast::Vec3(v[0]), fast::Vec3(v[1]), fast::Vec3(v[2])}}, slack);
         } else {
             const auto& sphere = scene.spheres[i - triangles];
-            judged = verdict(
+            judged = hit_bounds(
                 ray, fast::Sphere{fast::Vec3(sphere.center), static_cast<float>(sphere.radius)}, slack);
         }
         require(!(seen && judged.certain), "a blocked line of sight counts as free");
@@ -53,4 +56,4 @@ void explain_sight(const ref::World& world, const LineOfSight& line, bool seen)
     throw Undecided("a line of sight along an edge");
 }
 
-} // namespace cuda_test
+} // namespace path_judge_test

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace cuda_test {
+namespace path_judge_test {
 
 /// A segment, or a ray to infinity, that is tested for visibility. That of the fast path may begin and
 /// end elsewhere, within the slacks.
@@ -28,4 +28,4 @@ double end_slack(const ref::World& world, const ref::Vec3& end);
 /// rounding can explain this, and Disagreement otherwise.
 [[noreturn]] void explain_sight(const ref::World& world, const LineOfSight& line, bool seen);
 
-} // namespace cuda_test
+} // namespace path_judge_test

@@ -1,6 +1,6 @@
 #include "tests/cuda/path_judge/walk_recorder.h"
 
-namespace cuda_test {
+namespace path_judge_test {
 
 RecordedSample WalkRecorder::sample(fast::Integrator integrator, const fast::PathOptions& options,
                                     const fast::SampleId& id) const
@@ -24,4 +24,4 @@ RecordedSample WalkRecorder::sample(fast::Integrator integrator, const fast::Pat
     return result;
 }
 
-} // namespace cuda_test
+} // namespace path_judge_test

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace cuda_test {
+namespace path_judge_test {
 
 /// The contributions of one sample, and its walks.
 struct RecordedSample {
@@ -89,4 +89,4 @@ private:
     fast::SceneInMemory scene_;
 };
 
-} // namespace cuda_test
+} // namespace path_judge_test

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace cuda_test {
+namespace path_judge_test {
 
 using ref::Vec3;
 
@@ -231,4 +231,4 @@ FollowedWalk followed_eye_walk(const Setting& setting, const RecordedSample& sam
     return walk;
 }
 
-} // namespace cuda_test
+} // namespace path_judge_test

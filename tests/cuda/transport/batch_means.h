@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 /// One number per batch.
 using Means = std::vector<double>;
@@ -79,4 +79,4 @@ inline double error_of(const Means& means)
     return std::sqrt(squares / (count * (count - 1)));
 }
 
-} // namespace cuda_test
+} // namespace fast_transport_test

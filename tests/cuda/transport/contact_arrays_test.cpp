@@ -17,7 +17,7 @@
 
 namespace {
 
-using cuda_test::Touching;
+using fast_transport_test::Touching;
 using scenes::Vec3;
 
 /// As in kernels (leave_end).
@@ -92,7 +92,7 @@ RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())
     const double gap =
         *rc::gen::inRange(0, 4) == 0 ? 0 : std::pow(10, -0.1 * *rc::gen::inRange(30, 120));
     const scenes::Scene scene =
-        cuda_test::touching_scene(kind, *rc::gen::inRange<std::uint32_t>(0, 1u << 30), gap);
+        fast_transport_test::touching_scene(kind, *rc::gen::inRange<std::uint32_t>(0, 1u << 30), gap);
     const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
     check_end(scene, arrays, scene.camera->eye, arrays.place(scene.camera->eye), arrays.eye_contacts);
     for (std::size_t i = 0; i < arrays.emitters.size(); ++i) {
@@ -109,7 +109,7 @@ RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())
 
 TEST(EndsOfPaths, OfAnOrdinarySceneTouchNothing)
 {
-    scenes::Scene scene = cuda_test::touching_scene(Touching::point_light_on_wall, 1, 0.01);
+    scenes::Scene scene = fast_transport_test::touching_scene(Touching::point_light_on_wall, 1, 0.01);
     const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
     EXPECT_TRUE(arrays.contact_planes.empty());
     EXPECT_TRUE(arrays.contact_triangles.empty());
@@ -120,7 +120,7 @@ TEST(EndsOfPaths, OfAnOrdinarySceneTouchNothing)
 TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
 {
     for (const double gap : {1e-9, -1e-9, 0.0}) {
-        const scenes::Scene scene = cuda_test::touching_scene(Touching::lamp_in_wall, 2, gap);
+        const scenes::Scene scene = fast_transport_test::touching_scene(Touching::lamp_in_wall, 2, gap);
         const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
         // The lamp's triangles are the last; the wall that they coincide with faces the same way.
         const fast::SurfaceContacts& lamp = arrays.surface_contacts[arrays.surfaces.back().contacts];
@@ -131,7 +131,7 @@ TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
                                                                                    : 1)
                 << gap;
     }
-    const scenes::Scene apart = cuda_test::touching_scene(Touching::lamp_in_wall, 2, 1e-4);
+    const scenes::Scene apart = fast_transport_test::touching_scene(Touching::lamp_in_wall, 2, 1e-4);
     EXPECT_TRUE(fast::scene_arrays(apart, true).coincident.empty());
 }
 

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 struct RecordedContribution {
     std::uint32_t pixel;
@@ -46,7 +46,8 @@ public:
     [[nodiscard]] fast::Needs needs() const { return arrays_.needs; }
 
     /// Computed by the kernel that is compiled for `needs`, which must include needs().
-    [[nodiscard]] std::vector<RecordedContribution> sample(fast::Needs needs, fast::Integrator integrator,
+    [[nodiscard]] std::vector<RecordedContribution> sample(fast::Needs needs,
+                                                           fast::Integrator integrator,
                                                            const fast::PathOptions& options,
                                                            const fast::SampleId& id) const
     {
@@ -71,4 +72,4 @@ private:
     fast::SceneInMemory scene_;
 };
 
-} // namespace cuda_test
+} // namespace fast_transport_test

@@ -68,7 +68,7 @@ TEST(DroppedContributions, NoneIsLostWhoeverComesBetween)
 {
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
         std::mt19937 random(seed);
-        cuda_test::InterleavedExecutor executor(
+        parallel_test::InterleavedExecutor executor(
             4, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(random()) % ready; });
         expect_all_dropped(executor);
     }

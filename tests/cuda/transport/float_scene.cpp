@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 namespace {
 
@@ -131,4 +131,4 @@ scenes::Scene float_scene(scenes::Scene scene)
     return scene;
 }
 
-} // namespace cuda_test
+} // namespace fast_transport_test

@@ -4,7 +4,7 @@
 
 #include "scenes/scene.h"
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 /// `scene` scaled by a power of two to a diagonal between 1 and 2, with the centre of its box at the
 /// origin, and rounded to a grid of 2^-22 of its diagonal or somewhat coarser. Every number of it is a
@@ -19,4 +19,4 @@ scenes::Scene float_scene(scenes::Scene scene);
 double nearest_float(double x);
 scenes::Vec3 nearest_float(const scenes::Vec3& v);
 
-} // namespace cuda_test
+} // namespace fast_transport_test

@@ -21,7 +21,7 @@ scenes::Scene all_emitters()
 TEST(FloatScene, KeepsEveryPlace)
 {
     const scenes::Scene scene = all_emitters();
-    const scenes::Scene moved = cuda_test::float_scene(scene);
+    const scenes::Scene moved = fast_transport_test::float_scene(scene);
     const auto from_eye = [](const scenes::Scene& s) {
         std::vector<scenes::Vec3> places;
         const auto add = [&](const scenes::Vec3& x) { places.push_back(x - s.camera->eye); };
@@ -50,7 +50,7 @@ TEST(FloatScene, KeepsEveryPlace)
 
 TEST(FloatScene, IsLeftWhereItIs)
 {
-    const scenes::Scene scene = cuda_test::float_scene(all_emitters());
+    const scenes::Scene scene = fast_transport_test::float_scene(all_emitters());
     const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
     EXPECT_EQ(arrays.place.origin, scenes::Vec3(0));
     EXPECT_EQ(arrays.place.scale, 1);
@@ -72,7 +72,7 @@ bool is_float(const scenes::Vec3& v)
 
 TEST(FloatScene, HasNothingButFloats)
 {
-    const scenes::Scene scene = cuda_test::float_scene(all_emitters());
+    const scenes::Scene scene = fast_transport_test::float_scene(all_emitters());
     EXPECT_TRUE(is_float(scene.camera->eye) && is_float(scene.camera->right) &&
                 is_float(scene.camera->up) && is_float(scene.camera->backward));
     for (const auto& triangle : scene.triangles)

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 using scenes::Rgb;
 using scenes::Vec3;
@@ -211,4 +211,4 @@ void LitPlane::add_lamp()
     watch(width / pieces);
 }
 
-} // namespace cuda_test
+} // namespace fast_transport_test

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 /// The film reaches from -span to span on both axes at the distance 1 from the eye.
 struct PlaneEye {
@@ -64,4 +64,4 @@ private:
     scenes::Rgb under_sky_{0}; // mean irradiance over the film that a lamp hides, per radiance
 };
 
-} // namespace cuda_test
+} // namespace fast_transport_test

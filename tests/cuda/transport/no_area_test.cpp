@@ -31,7 +31,7 @@ Vec3 float_place(Random& random)
 {
     Vec3 place = random.in_cube();
     for (int axis = 0; axis < 3; ++axis) place[axis] += place[axis] < 0 ? -0.25 : 0.25;
-    return cuda_test::nearest_float(place);
+    return fast_transport_test::nearest_float(place);
 }
 
 /// The kinds of triangles that have no area in the scene.

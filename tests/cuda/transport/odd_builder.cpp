@@ -7,7 +7,7 @@
 #include <sstream>
 #include <variant>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 using scenes::Rgb;
 using scenes::Vec3;
@@ -177,4 +177,4 @@ void OddBuilder::say(const std::string& what, double number)
     say(text.str());
 }
 
-} // namespace cuda_test
+} // namespace fast_transport_test

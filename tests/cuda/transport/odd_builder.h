@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 class OddBuilder {
 public:
@@ -88,4 +88,4 @@ private:
     std::string said_;
 };
 
-} // namespace cuda_test
+} // namespace fast_transport_test

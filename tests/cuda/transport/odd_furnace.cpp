@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 using scenes::Rgb;
 using scenes::Vec3;
@@ -126,4 +126,4 @@ OddScene odd_furnace(std::uint32_t seed, bool sky)
     return odd;
 }
 
-} // namespace cuda_test
+} // namespace fast_transport_test

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 using scenes::Rgb;
 using scenes::Vec3;
@@ -156,4 +156,4 @@ OddScene odd_plane(std::uint32_t seed)
     return odd;
 }
 
-} // namespace cuda_test
+} // namespace fast_transport_test

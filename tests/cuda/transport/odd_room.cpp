@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 using scenes::Rgb;
 using scenes::Vec3;
@@ -160,4 +160,4 @@ OddScene odd_room(std::uint32_t seed)
     return odd;
 }
 
-} // namespace cuda_test
+} // namespace fast_transport_test

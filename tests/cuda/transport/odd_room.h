@@ -7,7 +7,7 @@
 
 #include <set>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 /// The room is the cube from -1.5 to 1.5. Its cells, 1 wide, take one thing or lamp each.
 class OddRoom {
@@ -41,4 +41,4 @@ private:
     bool sky_in_second_ = false;
 };
 
-} // namespace cuda_test
+} // namespace fast_transport_test

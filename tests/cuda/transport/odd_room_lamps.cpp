@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 using scenes::Rgb;
 using scenes::Vec3;
@@ -128,4 +128,4 @@ void OddRoom::add_lamp()
     }
 }
 
-} // namespace cuda_test
+} // namespace fast_transport_test

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 OddScene odd_scene(std::uint32_t seed)
 {
@@ -25,4 +25,4 @@ std::string name_of(OddKind kind)
     return names[static_cast<std::size_t>(kind)];
 }
 
-} // namespace cuda_test
+} // namespace fast_transport_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 enum class OddKind {
     white_under_sky,   // nothing absorbs: the radiance is that of the sky, everywhere
@@ -59,4 +59,4 @@ OddScene odd_furnace(std::uint32_t seed, bool sky);
 OddScene odd_plane(std::uint32_t seed);
 OddScene odd_room(std::uint32_t seed);
 
-} // namespace cuda_test
+} // namespace fast_transport_test

@@ -40,17 +40,18 @@
 
 namespace {
 
-using cuda_test::average;
-using cuda_test::error_of;
-using cuda_test::Means;
-using cuda_test::OddScene;
+using fast_transport_test::average;
+using fast_transport_test::error_of;
+using fast_transport_test::Means;
+using fast_transport_test::OddScene;
 
 constexpr double bound = 7;
 constexpr double largest_error = 0.1; // relative
 constexpr std::uint32_t more = 16;    // factor for the samples where the error is larger
 
 constexpr std::uint32_t groups = 20; // of scenes, all of one kind; the number of tests
-constexpr cuda_test::Samples samples{.size = cuda_test::odd_size, .batches = 32, .batch_size = 4};
+constexpr fast_transport_test::Samples samples{
+    .size = fast_transport_test::odd_size, .batches = 32, .batch_size = 4};
 
 /// One of the three integrators, in both wings.
 struct Both {
@@ -75,9 +76,9 @@ void show(const std::string& what, double mean, double error)
     if (shows_scene()) std::cout << what << ' ' << mean << " +- " << error << '\n';
 }
 
-cuda_test::Samples times(std::uint32_t factor)
+fast_transport_test::Samples times(std::uint32_t factor)
 {
-    cuda_test::Samples all = samples;
+    fast_transport_test::Samples all = samples;
     all.batch_size *= factor;
     return all;
 }
@@ -90,8 +91,8 @@ Truth truth_of(const OddScene& odd, std::uint64_t seed)
     for (const std::uint32_t factor : {1u, more}) {
         truth = {0, 0};
         for (const scenes::Scene& part : odd.parts) {
-            const Means means =
-                cuda_test::means_by_ref(part, integrator, odd.max_edges, ++seed, times(factor));
+            const Means means = fast_transport_test::means_by_ref(part, integrator, odd.max_edges,
+                                                                  ++seed, times(factor));
             truth.mean += average(means);
             truth.error = std::hypot(truth.error, error_of(means));
         }
@@ -128,13 +129,14 @@ void expect_right(const OddScene& odd, const Both& integrator, const Truth& trut
     std::uint32_t factor = 1;
     for (const std::uint32_t tried : {1u, more}) {
         factor = tried;
-        ref = cuda_test::means_by_ref(odd.scene, integrator.ref, odd.max_edges, ++number, times(factor));
+        ref = fast_transport_test::means_by_ref(odd.scene, integrator.ref, odd.max_edges, ++number,
+                                                times(factor));
         const double scale = integrator.sure ? truth.mean : average(ref);
         enough = scale > 0 && error_of(ref) <= largest_error * scale;
         if (enough) break;
     }
-    const Means host =
-        cuda_test::means_by_host(odd.scene, integrator.host, odd.max_edges, number, times(factor));
+    const Means host = fast_transport_test::means_by_host(odd.scene, integrator.host, odd.max_edges,
+                                                          number, times(factor));
     expect_equal_wings(host, ref, odd.float_tolerance, name);
     if (integrator.sure) {
         EXPECT_TRUE(enough) << name << " by ref is too noisy: " << average(ref) << ", standard error "
@@ -143,14 +145,15 @@ void expect_right(const OddScene& odd, const Both& integrator, const Truth& trut
     } else if (!enough) {
         return;
     }
-    const double rare = 16.0 / (cuda_test::odd_size * cuda_test::odd_size * 32.0 * 4 * factor);
+    const double rare =
+        16.0 / (fast_transport_test::odd_size * fast_transport_test::odd_size * 32.0 * 4 * factor);
     expect_truth(ref, truth, rare, name + " by ref");
     expect_truth(host, truth, rare + odd.float_tolerance, name + " by host");
 }
 
 void expect_right(std::uint32_t seed)
 {
-    const OddScene odd = cuda_test::odd_scene(seed);
+    const OddScene odd = fast_transport_test::odd_scene(seed);
     SCOPED_TRACE("PLUMBLINE_ODD_SEED=" + std::to_string(seed) + " (" + odd.description + ')');
     const Truth truth = truth_of(odd, seed);
     show(odd.description + "\ntruth", truth.mean, truth.error);
@@ -179,12 +182,14 @@ TEST_P(OddScenes, AreRenderedRight)
     for (std::uint32_t seed = group; seed < scenes; seed += groups) expect_right(seed);
 }
 
-static_assert(groups % cuda_test::odd_kinds == 0); // so that all scenes of a group are of one kind
+static_assert(groups % fast_transport_test::odd_kinds ==
+              0); // so that all scenes of a group are of one kind
 
 INSTANTIATE_TEST_SUITE_P(Seeds, OddScenes, testing::Range(0u, groups),
                          [](const testing::TestParamInfo<std::uint32_t>& group) {
-                             return cuda_test::name_of(cuda_test::odd_kind(group.param)) +
-                                    std::to_string(group.param / cuda_test::odd_kinds);
+                             return fast_transport_test::name_of(
+                                        fast_transport_test::odd_kind(group.param)) +
+                                    std::to_string(group.param / fast_transport_test::odd_kinds);
                          });
 
 } // namespace

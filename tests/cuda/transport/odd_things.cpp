@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 using scenes::Rgb;
 using scenes::Vec3;
@@ -229,4 +229,4 @@ void add_zero_areas(OddBuilder& builder, double reach, std::uint32_t material)
     }
 }
 
-} // namespace cuda_test
+} // namespace fast_transport_test

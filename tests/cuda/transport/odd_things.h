@@ -5,7 +5,7 @@
 
 #include "tests/cuda/transport/odd_builder.h"
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 /// The smallest size of an object, in units in which the room is 3 wide. The tolerance for single
 /// precision grows with its inverse: for a lamp of 1e-4 it is 1%. A larger minimum would test less.
@@ -48,4 +48,4 @@ double any_index(OddBuilder& builder);
 /// Glass that absorbs nothing.
 std::uint32_t add_glass(OddBuilder& builder, double ior);
 
-} // namespace cuda_test
+} // namespace fast_transport_test

@@ -20,9 +20,9 @@
 
 namespace {
 
-using cuda_test::ContributionRecorder;
-using cuda_test::RecordedContribution;
 using fast::Integrator;
+using fast_transport_test::ContributionRecorder;
+using fast_transport_test::RecordedContribution;
 using transport_test::our_scene;
 
 constexpr int width = 12;
@@ -300,7 +300,7 @@ TEST(Needs, LeavingOutWhatASceneDoesNotHaveChangesNothing)
     for (const auto& need : seen) EXPECT_TRUE(need[0] && need[1]) << "some kernel is never used";
 }
 
-class RendererOnDevice : public cuda_test::OnDevice {};
+class RendererOnDevice : public parallel_test::OnDevice {};
 
 TEST_F(RendererOnDevice, GivesTheHostsPicture)
 {

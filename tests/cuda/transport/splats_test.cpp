@@ -82,7 +82,7 @@ void expect_all_there(Executor& executor, const std::vector<float>& values)
 RC_GTEST_PROP(Splats, AreAllThereInEveryOrderOfAtomicSteps, ())
 {
     std::mt19937 chooser(*rc::gen::arbitrary<std::uint32_t>());
-    cuda_test::InterleavedExecutor executor(
+    parallel_test::InterleavedExecutor executor(
         4, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(chooser() % ready); });
     expect_all_there(executor, some_values(1, *rc::gen::inRange<std::size_t>(0, 40)));
 }
@@ -100,7 +100,7 @@ TEST(Splats, ThatAreTornAreFound)
     int found = 0;
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
         std::mt19937 chooser(seed);
-        cuda_test::InterleavedExecutor executor(
+        parallel_test::InterleavedExecutor executor(
             4, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(chooser() % ready); });
         std::vector<fast::Rgb> sums(pixels, fast::Rgb(0.0f));
         executor(32, AddTornSplats{values, sums});

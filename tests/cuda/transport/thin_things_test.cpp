@@ -70,20 +70,25 @@ scenes::Scene room_with_pane(double thickness)
 
 /// Both wings make the same paths, except for about one sample in 2^14 that rounding changes, which
 /// changes the mean by about as much. 7 standard errors are exceeded by chance once in 10^7 times.
-void expect_same(const cuda_test::Means& floats, const cuda_test::Means& doubles, const char* what)
+void expect_same(const fast_transport_test::Means& floats, const fast_transport_test::Means& doubles,
+                 const char* what)
 {
-    cuda_test::Means differences;
+    fast_transport_test::Means differences;
     for (std::size_t i = 0; i < floats.size(); ++i) differences.push_back(floats[i] - doubles[i]);
-    EXPECT_LT(std::abs(cuda_test::average(differences)),
-              7 * cuda_test::error_of(differences) + 1e-4 * cuda_test::average(doubles))
-        << what << ": " << cuda_test::average(floats) << ", " << cuda_test::average(doubles);
+    EXPECT_LT(std::abs(fast_transport_test::average(differences)),
+              7 * fast_transport_test::error_of(differences) +
+                  1e-4 * fast_transport_test::average(doubles))
+        << what << ": " << fast_transport_test::average(floats) << ", "
+        << fast_transport_test::average(doubles);
     // Otherwise the test would be weak.
-    EXPECT_LT(7 * cuda_test::error_of(differences), 0.01 * cuda_test::average(doubles)) << what;
+    EXPECT_LT(7 * fast_transport_test::error_of(differences),
+              0.01 * fast_transport_test::average(doubles))
+        << what;
 }
 
 void expect_as_by_the_reference(const scenes::Scene& scene, int max_edges)
 {
-    constexpr cuda_test::Samples samples{16, 32, 4};
+    constexpr fast_transport_test::Samples samples{16, 32, 4};
     expect_same(means_by_host(scene, fast::Integrator::path, max_edges, 1, samples),
                 means_by_ref(scene, ref::trace_path, max_edges, 1, samples), "path");
     expect_same(means_by_host(scene, fast::Integrator::bdpt, max_edges, 1, samples),
@@ -140,13 +145,13 @@ TEST(ThinThings, ALampThatCoversAnotherHidesIt)
                 scenes::Scene uncovered = scene;
                 uncovered.triangles.erase(uncovered.triangles.begin() + 14,
                                           uncovered.triangles.begin() + 16);
-                constexpr cuda_test::Samples samples{8, 4, 4};
+                constexpr fast_transport_test::Samples samples{8, 4, 4};
                 for (const auto integrator :
                      {fast::Integrator::path, fast::Integrator::bdpt, fast::Integrator::light}) {
                     const double seen =
-                        cuda_test::average(means_by_host(scene, integrator, 3, 1, samples));
-                    const double all =
-                        cuda_test::average(means_by_host(uncovered, integrator, 3, 1, samples));
+                        fast_transport_test::average(means_by_host(scene, integrator, 3, 1, samples));
+                    const double all = fast_transport_test::average(
+                        means_by_host(uncovered, integrator, 3, 1, samples));
                     EXPECT_GT(all, 1e-6);
                     // The sides of the gap have 4 gap of the lamp's area of 1; a path through the gap
                     // loses light by reflections.

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 namespace {
 
@@ -173,4 +173,4 @@ std::string name_of(Touching kind)
     return names[static_cast<std::size_t>(kind)];
 }
 
-} // namespace cuda_test
+} // namespace fast_transport_test

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-namespace cuda_test {
+namespace fast_transport_test {
 
 enum class Touching {
     point_light_on_lamp, // in the plane of a lamp that hangs in the room
@@ -31,4 +31,4 @@ scenes::Scene touching_scene(Touching kind, std::uint32_t seed, double gap);
 
 std::string name_of(Touching kind);
 
-} // namespace cuda_test
+} // namespace fast_transport_test

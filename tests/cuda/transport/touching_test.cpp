@@ -23,23 +23,23 @@
 
 namespace {
 
-using cuda_test::Touching;
+using fast_transport_test::Touching;
 
-using cuda_test::average;
-using cuda_test::error_of;
-using cuda_test::Means;
+using fast_transport_test::average;
+using fast_transport_test::error_of;
+using fast_transport_test::Means;
 
-constexpr cuda_test::Samples samples{.size = 16, .batches = 32, .batch_size = 4};
+constexpr fast_transport_test::Samples samples{.size = 16, .batches = 32, .batch_size = 4};
 constexpr double bound = 7;
 
 Means by_ref(const scenes::Scene& scene, ref::Integrator integrator, int max_edges, std::uint64_t seed)
 {
-    return cuda_test::means_by_ref(scene, integrator, max_edges, seed, samples);
+    return fast_transport_test::means_by_ref(scene, integrator, max_edges, seed, samples);
 }
 
 Means by_host(const scenes::Scene& scene, fast::Integrator integrator, int max_edges, std::uint64_t seed)
 {
-    return cuda_test::means_by_host(scene, integrator, max_edges, seed, samples);
+    return fast_transport_test::means_by_host(scene, integrator, max_edges, seed, samples);
 }
 
 void expect_agree(const Means& a, const Means& b, const char* what)
@@ -65,12 +65,12 @@ Means limit_of(Touching kind, std::uint32_t seed, int max_edges)
         return by_ref(scene, ref::trace_path, max_edges, seed);
     };
     constexpr double gap = 1e-6;
-    Means limit = path(cuda_test::touching_scene(kind, seed, gap));
+    Means limit = path(fast_transport_test::touching_scene(kind, seed, gap));
     if (kind != Touching::point_light_on_lamp) return limit;
     // This lamp has two sides, and the light shines to both: adds its contribution on the one side to
     // that on the other.
-    const Means above = path(cuda_test::touching_scene(kind, seed, -gap));
-    scenes::Scene without = cuda_test::touching_scene(kind, seed, 0);
+    const Means above = path(fast_transport_test::touching_scene(kind, seed, -gap));
+    scenes::Scene without = fast_transport_test::touching_scene(kind, seed, 0);
     without.point_lights.clear();
     const Means neither = path(without);
     for (std::size_t i = 0; i < limit.size(); ++i) limit[i] += above[i] - neither[i];
@@ -87,7 +87,7 @@ TEST_P(TouchingScenes, AreTheSameForAllIntegratorsOnBothWingsAndInTheLimit)
     const int max_edges = has_glass ? 8 : 4;
     for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const scenes::Scene scene = cuda_test::touching_scene(kind, seed, 0);
+        const scenes::Scene scene = fast_transport_test::touching_scene(kind, seed, 0);
         const Means path = by_ref(scene, ref::trace_path, max_edges, seed);
         const Means bdpt = by_ref(scene, ref::trace_bidirectionally, max_edges, seed + 1000);
         EXPECT_LT(error_of(path), 0.04 * average(path)); // otherwise the comparisons would be weak
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, TouchingScenes,
                                          Touching::lamp_in_wall, Touching::lamps_back_to_back,
                                          Touching::lamp_under_lamp, Touching::glass_on_floor),
                          [](const testing::TestParamInfo<Touching>& kind) {
-                             return cuda_test::name_of(kind.param);
+                             return fast_transport_test::name_of(kind.param);
                          });
 
 } // namespace

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-namespace cuda_test {
+namespace fast_trees_test {
 
 namespace {
 
@@ -64,7 +64,7 @@ Built build_on(const Setup& setup, std::span<const fast::Aabb> boxes, std::uint6
     }
     case On::interleaved: {
         std::mt19937_64 random(seed);
-        InterleavedExecutor executor(
+        parallel_test::InterleavedExecutor executor(
             8, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(random() % ready); });
         return build_with(executor, setup.code_bits, boxes);
     }
@@ -124,4 +124,4 @@ std::vector<fast::Aabb> rounded(std::span<const ref::Aabb> boxes)
     return result;
 }
 
-} // namespace cuda_test
+} // namespace fast_trees_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace cuda_test {
+namespace fast_trees_test {
 
 enum class On { serial, threads, interleaved, device };
 
@@ -55,4 +55,4 @@ std::vector<ref::Aabb> exactly(std::span<const fast::Aabb> boxes);
 /// The boxes with each coordinate rounded to the nearest float: no box becomes empty.
 std::vector<fast::Aabb> rounded(std::span<const ref::Aabb> boxes);
 
-} // namespace cuda_test
+} // namespace fast_trees_test

@@ -399,7 +399,7 @@ TEST(LeaveSurfaceInFloat, AWalkThatStaysInsideABoxNeverLeavesIt)
         for (const double offset : {0.0, 1e2}) {
             const trees_test::Vec3 by = scale * offset * trees_test::Vec3(1, -0.3, 0.7);
             const trees_test::Mesh mesh = moved(trees_test::tessellated_box(2, 3), scale, by);
-            const World world(cuda_test::triangles_of(mesh),
+            const World world(fast_trees_test::triangles_of(mesh),
                               {{Vec3(mesh.inside), static_cast<float>(0.4 * scale)}});
             Ray ray{Vec3(mesh.inside + scale * trees_test::Vec3(0.7)), infinity,
                     Vec3(random.direction())};
@@ -428,7 +428,7 @@ void expect_no_way_out_of_edges(double shear, double scale, double offset, std::
         const trees_test::Vec3 by = scale * offset * random.direction();
         for (trees_test::Vec3& v : mesh.vertices)
             v = by + scale * ((v.x + shear * v.y) * x + v.y * y + v.z * z);
-        const World world(cuda_test::triangles_of(mesh), {});
+        const World world(fast_trees_test::triangles_of(mesh), {});
         for (int i = 0; i < 5'000; ++i) {
             const auto& triangle = mesh.triangles[random.below(mesh.triangles.size())];
             const std::size_t first = random.below(3);

@@ -16,17 +16,17 @@
 
 namespace {
 
-using cuda_test::build_on;
-using cuda_test::Built;
-using cuda_test::found_device;
-using cuda_test::OnDevice;
+using fast_trees_test::build_on;
+using fast_trees_test::Built;
+using parallel_test::found_device;
+using parallel_test::OnDevice;
 using trees_test::Kind;
 using trees_test::Random;
 
 std::vector<fast::Aabb> some_boxes(std::size_t n, std::uint64_t seed)
 {
     Random random(seed);
-    return cuda_test::rounded(trees_test::boxes(Kind::uniform, n, random));
+    return fast_trees_test::rounded(trees_test::boxes(Kind::uniform, n, random));
 }
 
 /// Whether both have the same bits everywhere.
@@ -57,7 +57,7 @@ TEST_F(OnDevice, TenThousandBuildsEqualTheSerialOne)
         fast::DeviceLbvh tree(5000, code_bits);
         for (std::uint64_t seed = 0; seed < 50; ++seed) {
             const auto boxes = some_boxes(seed * 100 + 1, seed);
-            const Built expected = build_on({cuda_test::On::serial, code_bits}, boxes);
+            const Built expected = build_on({fast_trees_test::On::serial, code_bits}, boxes);
             for (int repeat = 0; repeat < 100; ++repeat) {
                 tree.build(boxes);
                 ASSERT_TRUE(same(tree.download(), expected)) << boxes.size() << " repeat " << repeat;
@@ -72,7 +72,7 @@ TEST_F(OnDevice, ABuildCanBeCapturedInAGraph)
     fast::DeviceLbvh tree(3000, 30);
     tree.build(boxes);
     tree.build_as_graph();
-    EXPECT_TRUE(same(tree.download(), build_on({cuda_test::On::serial, 30}, boxes)));
+    EXPECT_TRUE(same(tree.download(), build_on({fast_trees_test::On::serial, 30}, boxes)));
 }
 
 TEST_F(OnDevice, StagesTakeTimeAndGiveTheSameTree)
@@ -81,12 +81,12 @@ TEST_F(OnDevice, StagesTakeTimeAndGiveTheSameTree)
     fast::DeviceLbvh tree(3000, 63);
     tree.build(boxes);
     for (const float milliseconds : tree.time_stages()) EXPECT_GT(milliseconds, 0);
-    EXPECT_TRUE(same(tree.download(), build_on({cuda_test::On::serial, 63}, boxes)));
+    EXPECT_TRUE(same(tree.download(), build_on({fast_trees_test::On::serial, 63}, boxes)));
 }
 
 TEST_F(OnDevice, RaysFindTheHitsThatTheHostFinds) // bit for bit: no fused multiply-add on either side
 {
-    const auto triangles = cuda_test::triangles_of(trees_test::icosphere(4, 0.5));
+    const auto triangles = fast_trees_test::triangles_of(trees_test::icosphere(4, 0.5));
     Random random(1);
     std::vector<fast::Sphere> spheres;
     for (int i = 0; i < 100; ++i)
@@ -124,7 +124,7 @@ TEST_F(OnDevice, OutOfMemoryNamesBytesAndLeavesTheDeviceUsable)
     held.clear();
     fast::DeviceLbvh tree(100, 30);
     tree.build(boxes);
-    EXPECT_TRUE(same(tree.download(), build_on({cuda_test::On::serial, 30}, boxes)));
+    EXPECT_TRUE(same(tree.download(), build_on({fast_trees_test::On::serial, 30}, boxes)));
 }
 
 } // namespace

@@ -23,13 +23,13 @@
 
 namespace {
 
-using cuda_test::Built;
-using cuda_test::InterleavedExecutor;
+using fast_trees_test::Built;
+using parallel_test::InterleavedExecutor;
 using trees_test::Kind;
 using trees_test::Random;
 using Lines = std::vector<std::string>;
 
-class HplocOnDevice : public cuda_test::OnDevice {};
+class HplocOnDevice : public parallel_test::OnDevice {};
 
 template <fast::Executor E>
 Built cluster(E& executor, std::span<const fast::Aabb> boxes)
@@ -77,7 +77,7 @@ ref::Tree with_leaves_in_order(const Built& built, std::span<const fast::Aabb> b
 
 Lines violations(const Built& built, std::span<const fast::Aabb> boxes)
 {
-    return is_valid_tree(with_leaves_in_order(built, boxes), cuda_test::exactly(boxes));
+    return is_valid_tree(with_leaves_in_order(built, boxes), fast_trees_test::exactly(boxes));
 }
 
 bool same(const Built& a, const Built& b)
@@ -97,7 +97,8 @@ TEST(Hploc, IsAValidTreeForEveryKindAndSize)
     for (std::size_t n = 0; n <= 70; ++n) sizes.push_back(n);
     for (int kind = 0; kind < trees_test::kinds; ++kind)
         for (const std::size_t n : sizes) {
-            const auto boxes = cuda_test::rounded(trees_test::boxes(static_cast<Kind>(kind), n, random));
+            const auto boxes =
+                fast_trees_test::rounded(trees_test::boxes(static_cast<Kind>(kind), n, random));
             ASSERT_EQ(violations(cluster(serial, boxes), boxes), Lines())
                 << trees_test::name(static_cast<Kind>(kind)) << " n " << n;
         }
@@ -109,7 +110,7 @@ TEST(Hploc, IsTheSameByThreadsAndValidAtSizesAroundPowersOfTwo)
     fast::SerialExecutor serial;
     fast::ThreadedExecutor threads(3, 1);
     for (const std::size_t n : {70u, 1000u, 65535u, 65536u, 65537u}) {
-        const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::duplicated, n, random));
+        const auto boxes = fast_trees_test::rounded(trees_test::boxes(Kind::duplicated, n, random));
         const Built built = cluster(threads, boxes);
         EXPECT_EQ(violations(built, boxes), Lines()) << n;
         EXPECT_TRUE(same(built, cluster(serial, boxes))) << n;
@@ -121,7 +122,7 @@ RC_GTEST_PROP(HplocInRandomInterleavings, IsTheSame, ())
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const auto kind = static_cast<Kind>(*rc::gen::inRange(0, trees_test::kinds));
     const auto boxes =
-        cuda_test::rounded(trees_test::boxes(kind, *rc::gen::inRange<std::size_t>(0, 60), random));
+        fast_trees_test::rounded(trees_test::boxes(kind, *rc::gen::inRange<std::size_t>(0, 60), random));
     fast::SerialExecutor serial;
     InterleavedExecutor interleaved(
         8, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(random.below(ready)); });
@@ -172,7 +173,7 @@ TEST_F(HplocOnDevice, IsTheSame)
     Random random(5);
     fast::SerialExecutor serial;
     for (const std::size_t n : {1u, 2u, 300u, 20000u}) {
-        const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::duplicated, n, random));
+        const auto boxes = fast_trees_test::rounded(trees_test::boxes(Kind::duplicated, n, random));
         fast::DeviceLbvh tree(static_cast<std::uint32_t>(n), 63);
         tree.build(boxes);
         const fast::BuiltTree built = tree.download_clustered();
@@ -185,7 +186,7 @@ TEST(SahCost, IsTheReferences)
     Random random(6);
     fast::SerialExecutor serial;
     for (const std::size_t n : {1u, 2u, 300u}) {
-        const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::uniform, n, random));
+        const auto boxes = fast_trees_test::rounded(trees_test::boxes(Kind::uniform, n, random));
         const Built built = cluster(serial, boxes);
         // Sums and quotients of floats compared with those of doubles: two products, two sums, and one
         // quotient.
@@ -201,14 +202,14 @@ double ratio_to_sweep(const std::vector<fast::Triangle>& triangles)
     std::vector<fast::Aabb> boxes(triangles.size());
     serial(static_cast<std::uint32_t>(boxes.size()), fast::BoundTriangles{triangles, boxes});
     const ref::Tree tree = with_leaves_in_order(cluster(serial, boxes), boxes);
-    const ref::Tree sweep = ref::build(cuda_test::exactly(boxes), ref::Builder::sah);
+    const ref::Tree sweep = ref::build(fast_trees_test::exactly(boxes), ref::Builder::sah);
     return ref::quality(tree).sah_cost / ref::quality(sweep).sah_cost;
 }
 
 TEST(Hploc, CostsAtMostATenthMoreThanTheSweep) // a goal, not a proven bound
 {
-    EXPECT_LE(ratio_to_sweep(cuda_test::triangles_of(trees_test::icosphere(5, 1))), 1.10);
-    EXPECT_LE(ratio_to_sweep(cuda_test::triangles_of(trees_test::tessellated_box(30, 2))), 1.10);
+    EXPECT_LE(ratio_to_sweep(fast_trees_test::triangles_of(trees_test::icosphere(5, 1))), 1.10);
+    EXPECT_LE(ratio_to_sweep(fast_trees_test::triangles_of(trees_test::tessellated_box(30, 2))), 1.10);
     Random random(4);
     std::vector<fast::Triangle> soup(5000);
     for (fast::Triangle& triangle : soup) {

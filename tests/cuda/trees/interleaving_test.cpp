@@ -15,8 +15,8 @@
 
 namespace {
 
-using cuda_test::EveryChoice;
-using cuda_test::InterleavedExecutor;
+using parallel_test::EveryChoice;
+using parallel_test::InterleavedExecutor;
 using trees_test::Random;
 using Words = std::array<std::uint32_t, 16>; // of a node
 
@@ -94,7 +94,7 @@ TEST(RefitInEveryInterleaving, FindsATornCounter)
     int found = 0;
     do {
         // Two leaves under one node: both may count as the first, and then no thread resets the count.
-        found += unfitted.refits<cuda_test::arrive_torn>(executor) ? 0 : 1;
+        found += unfitted.refits<fast_trees_test::arrive_torn>(executor) ? 0 : 1;
         ++rounds;
     } while (choices.next_round());
     EXPECT_GT(found, 0);
@@ -106,7 +106,7 @@ template <std::uint32_t (*arrive_at)(std::uint32_t&)>
 bool refits_by_chance(std::size_t n, std::uint64_t seed)
 {
     Random random(seed);
-    Unfitted unfitted(cuda_test::rounded(trees_test::boxes(trees_test::Kind::uniform, n, random)));
+    Unfitted unfitted(fast_trees_test::rounded(trees_test::boxes(trees_test::Kind::uniform, n, random)));
     std::mt19937_64 bits(seed);
     InterleavedExecutor executor(
         32, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(bits() % ready); });
@@ -123,7 +123,7 @@ RC_GTEST_PROP(RefitInRandomInterleavings, GivesTheSameBoxes, ())
 TEST(RefitInRandomInterleavings, FindsATornCounterEveryTime)
 {
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
-        EXPECT_FALSE(refits_by_chance<cuda_test::arrive_torn>(32, seed)) << seed;
+        EXPECT_FALSE(refits_by_chance<fast_trees_test::arrive_torn>(32, seed)) << seed;
 }
 
 } // namespace

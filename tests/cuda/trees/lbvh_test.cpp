@@ -22,10 +22,10 @@
 
 namespace {
 
-using cuda_test::build_on;
-using cuda_test::Built;
-using cuda_test::On;
-using cuda_test::Setup;
+using fast_trees_test::build_on;
+using fast_trees_test::Built;
+using fast_trees_test::On;
+using fast_trees_test::Setup;
 using trees_test::Kind;
 using trees_test::Random;
 
@@ -45,7 +45,7 @@ ref::Tree reference_tree(const Built& built, std::span<const fast::Aabb> boxes)
     tree.primitives = built.primitives;
     tree.leaf_begin.resize(boxes.size() + 1);
     std::iota(tree.leaf_begin.begin(), tree.leaf_begin.end(), 0);
-    ref::refit(tree, cuda_test::exactly(boxes));
+    ref::refit(tree, fast_trees_test::exactly(boxes));
     return tree;
 }
 
@@ -61,7 +61,7 @@ bool same_bits(const ref::Vec3& a, const ref::Vec3& b)
 Lines violations(const Built& built, std::span<const fast::Aabb> boxes, int code_bits)
 {
     const ref::Tree tree = neutral(built, first_or_empty(boxes));
-    Lines found = is_valid_tree(tree, cuda_test::exactly(boxes));
+    Lines found = is_valid_tree(tree, fast_trees_test::exactly(boxes));
     if (found.empty()) found = is_valid_radix_tree(tree, built.codes);
     for (std::size_t i = 1; i < built.codes.size(); ++i) {
         if (std::pair(built.codes[i - 1], built.primitives[i - 1]) >=
@@ -102,7 +102,7 @@ class LbvhOn : public testing::TestWithParam<Setup> {
 protected:
     void SetUp() override
     {
-        if (GetParam().on == On::device) cuda_test::skip_without_device();
+        if (GetParam().on == On::device) parallel_test::skip_without_device();
     }
     /// Whether this executor can build `n` primitives in acceptable time.
     [[nodiscard]] static bool takes(std::size_t n)
@@ -124,7 +124,7 @@ TEST_P(LbvhOn, IsTheReferenceTreeOfItsCodesAtEverySmallSizeAndAroundBlocks)
     std::vector<std::size_t> sizes = {255, 256, 257, 258, 511, 512, 513, 514};
     for (std::size_t n = 0; n <= 70; ++n) sizes.push_back(n);
     for (const std::size_t n : sizes) {
-        const auto boxes = cuda_test::rounded(
+        const auto boxes = fast_trees_test::rounded(
             trees_test::boxes(n % 2 == 0 ? Kind::uniform : Kind::duplicated, n, random));
         ASSERT_EQ(violations(build_on(GetParam(), boxes, n), boxes, GetParam().code_bits), Lines()) << n;
     }
@@ -135,7 +135,8 @@ TEST_P(LbvhOn, IsTheReferenceTreeOfItsCodesForEveryKindOfInput)
     Random random(2);
     for (int kind = 0; kind < trees_test::kinds; ++kind)
         for (const std::size_t n : {2u, 3u, 17u, 300u}) {
-            const auto boxes = cuda_test::rounded(trees_test::boxes(static_cast<Kind>(kind), n, random));
+            const auto boxes =
+                fast_trees_test::rounded(trees_test::boxes(static_cast<Kind>(kind), n, random));
             const Built built = build_on(GetParam(), boxes, n);
             ASSERT_EQ(violations(built, boxes, GetParam().code_bits), Lines())
                 << trees_test::name(static_cast<Kind>(kind)) << " n " << n;
@@ -149,7 +150,7 @@ TEST_P(LbvhOn, IsTheReferenceTreeOfItsCodesAtSizesAroundPowersOfTwo)
     Random random(3);
     for (const std::size_t n : {65535u, 65536u, 65537u, (1u << 20) + 1}) {
         if (!takes(n)) GTEST_SKIP() << "a million changes of threads take too long";
-        const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::uniform, n, random));
+        const auto boxes = fast_trees_test::rounded(trees_test::boxes(Kind::uniform, n, random));
         ASSERT_EQ(violations(build_on(GetParam(), boxes), boxes, GetParam().code_bits), Lines()) << n;
     }
 }
@@ -160,7 +161,8 @@ TEST_P(LbvhOn, IsTheReferenceTreeOfItsCodesBeyondWhatAFloatCanCount)
     if (wanted == nullptr) GTEST_SKIP() << "takes minutes and 16 GiB: set PLUMBLINE_LONG=1 to run it";
     if (!takes(1u << 24)) GTEST_SKIP() << "a million changes of threads take too long";
     Random random(4);
-    const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::uniform, (1u << 24) + 3, random));
+    const auto boxes =
+        fast_trees_test::rounded(trees_test::boxes(Kind::uniform, (1u << 24) + 3, random));
     ASSERT_EQ(violations(build_on(GetParam(), boxes), boxes, GetParam().code_bits), Lines());
 }
 
@@ -180,7 +182,7 @@ TEST_P(LbvhOn, BuiltTwiceIsEqualAndEqualToTheSerialOne)
     Random random(5);
     for (const std::size_t n : {1u, 2u, 100u, 999u, 20000u}) {
         if (!takes(n)) continue;
-        const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::clustered, n, random));
+        const auto boxes = fast_trees_test::rounded(trees_test::boxes(Kind::clustered, n, random));
         const Built built = build_on(GetParam(), boxes, 1);
         expect_same_bits(built, build_on(GetParam(), boxes, 2));
         expect_same_bits(built, build_on({On::serial, GetParam().code_bits}, boxes));
@@ -201,7 +203,7 @@ std::string message(const Setup& setup, const std::vector<fast::Aabb>& boxes)
 std::string reference_message(const std::vector<fast::Aabb>& boxes)
 {
     try {
-        ref::build(cuda_test::exactly(boxes), ref::Builder::morton30);
+        ref::build(fast_trees_test::exactly(boxes), ref::Builder::morton30);
     } catch (const std::invalid_argument& error) {
         return error.what();
     }
@@ -232,16 +234,16 @@ RC_GTEST_PROP(LbvhRefit, AfterPrimitivesMoveGivesTheBoxesOfTheNewPlaces, ())
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const std::size_t n = *rc::gen::inRange<std::size_t>(1, 300);
     const auto kind = static_cast<Kind>(*rc::gen::inRange(0, trees_test::kinds));
-    const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::uniform, n, random));
-    const auto moved = cuda_test::rounded(trees_test::boxes(kind, n, random));
+    const auto boxes = fast_trees_test::rounded(trees_test::boxes(Kind::uniform, n, random));
+    const auto moved = fast_trees_test::rounded(trees_test::boxes(kind, n, random));
     fast::HostMemory memory;
     fast::SerialExecutor executor;
     fast::Lbvh<std::uint32_t> tree(memory, executor, static_cast<std::uint32_t>(n));
     tree.build(executor, boxes);
     tree.refit(executor, moved);
     tree.refit(executor, moved); // leaves no state that would disturb a second refit
-    const Built built = cuda_test::copy_of(tree);
-    RC_ASSERT(is_valid_tree(neutral(built, moved[0]), cuda_test::exactly(moved)) == Lines());
+    const Built built = fast_trees_test::copy_of(tree);
+    RC_ASSERT(is_valid_tree(neutral(built, moved[0]), fast_trees_test::exactly(moved)) == Lines());
 }
 
 TEST(LbvhMemory, IsReusedFromOneBuildToTheNextWithoutATrace)
@@ -251,11 +253,11 @@ TEST(LbvhMemory, IsReusedFromOneBuildToTheNextWithoutATrace)
     fast::SerialExecutor executor;
     fast::Lbvh<std::uint64_t> reused(memory, executor, 1000);
     for (const std::size_t n : {1000u, 3u, 500u, 1u, 0u, 2u, 999u}) {
-        const auto boxes = cuda_test::rounded(trees_test::boxes(Kind::uniform, n, random));
+        const auto boxes = fast_trees_test::rounded(trees_test::boxes(Kind::uniform, n, random));
         reused.build(executor, boxes);
         fast::Lbvh<std::uint64_t> fresh(memory, executor, static_cast<std::uint32_t>(n));
         fresh.build(executor, boxes);
-        expect_same_bits(cuda_test::copy_of(reused), cuda_test::copy_of(fresh));
+        expect_same_bits(fast_trees_test::copy_of(reused), fast_trees_test::copy_of(fresh));
     }
 }
 

@@ -15,7 +15,7 @@
 
 namespace {
 
-using cuda_test::rounded;
+using fast_trees_test::rounded;
 using trees_test::Kind;
 using trees_test::Random;
 
@@ -81,7 +81,7 @@ RC_GTEST_PROP(MortonCodeInFloat, IsAFewCellsFromTheReferenceAlongEachAxis, ())
     const auto kind = static_cast<Kind>(*rc::gen::inRange(0, trees_test::kinds));
     const int bits = *rc::gen::element(10, 21);
     const auto boxes = rounded(trees_test::boxes(kind, *rc::gen::inRange<std::size_t>(1, 200), random));
-    const auto exact = cuda_test::exactly(boxes);
+    const auto exact = fast_trees_test::exactly(boxes);
     const std::vector<std::uint64_t> mine = codes_of(boxes, bits);
     const std::vector<std::uint64_t> reference = ref::morton_codes(exact, bits);
     for (int axis = 0; axis < 3; ++axis) {
@@ -98,7 +98,7 @@ RC_GTEST_PROP(MortonCodeInFloat, IsAFewCellsFromTheReferenceAlongEachAxis, ())
 TEST(MortonCodeInFloat, TheBoundIsOneCellForThirtyBitsOfAnOrdinaryScene) // otherwise an empty test
 {
     Random random(1);
-    const auto boxes = cuda_test::exactly(rounded(trees_test::boxes(Kind::uniform, 200, random)));
+    const auto boxes = fast_trees_test::exactly(rounded(trees_test::boxes(Kind::uniform, 200, random)));
     for (int axis = 0; axis < 3; ++axis) {
         EXPECT_EQ(cells_apart(boxes, axis, 10), 1);
         EXPECT_LE(cells_apart(boxes, axis, 21), 1 + 7 * 0x1p21 * 0x1p-24);

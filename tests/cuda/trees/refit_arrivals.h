@@ -4,7 +4,7 @@
 
 #include "cuda/parallel/atomic.h"
 
-namespace cuda_test {
+namespace fast_trees_test {
 
 /// Atomic, but without order: the box that was written before may become visible later.
 inline std::uint32_t arrive_relaxed(std::uint32_t& counter)
@@ -22,4 +22,4 @@ inline std::uint32_t arrive_torn(std::uint32_t& counter)
     return before;
 }
 
-} // namespace cuda_test
+} // namespace fast_trees_test

@@ -38,7 +38,7 @@ int main(int argc, char** argv)
     if (how == "right") {
         refit_often<fast::arrive>();
     } else if (how == "relaxed") {
-        refit_often<cuda_test::arrive_relaxed>();
+        refit_often<fast_trees_test::arrive_relaxed>();
     } else {
         std::fputs("usage: relaxed_refit right|relaxed\n", stderr);
         return 2;

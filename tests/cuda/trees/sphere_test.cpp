@@ -3,7 +3,7 @@
 #include "cuda/trees/sphere.h"
 
 #include "cuda/parallel/executor.h"
-#include "tests/cuda/path_judge/ray_verdict.h"
+#include "tests/cuda/trees/hit_bounds.h"
 #include "tests/ref/trees/meshes.h"
 
 #include <gtest/gtest.h>
@@ -12,11 +12,11 @@
 
 namespace {
 
-using cuda_test::Verdict;
 using fast::Hit;
 using fast::Ray;
 using fast::Sphere;
 using fast::Vec3;
+using fast_trees_test::HitBounds;
 using trees_test::Random;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -51,13 +51,13 @@ RC_GTEST_PROP(IntersectSphereInFloat, FindsWhatIsThereWithinTheDerivedBound, ())
     for (int i = 0; i < 100; ++i) {
         const auto [sphere, ray] = some_encounter(random);
         if (ray.direction == Vec3(0)) continue;
-        const Verdict verdict = cuda_test::verdict(ray, sphere);
+        const HitBounds bounds = fast_trees_test::hit_bounds(ray, sphere);
         Hit hit{};
         const bool found = intersect_sphere(ray, sphere, ray.t_max, hit);
-        RC_ASSERT(found || !verdict.certain);
+        RC_ASSERT(found || !bounds.certain);
         if (!found) continue;
-        RC_ASSERT(verdict.possible);
-        RC_ASSERT(verdict.lowest <= hit.t && hit.t <= verdict.highest);
+        RC_ASSERT(bounds.possible);
+        RC_ASSERT(bounds.lowest <= hit.t && hit.t <= bounds.highest);
         RC_ASSERT(hit.b1 == 0 && hit.b2 == 0);
     }
 }
@@ -70,12 +70,12 @@ TEST(IntersectSphereInFloat, AgreesWithTheReferenceOnMostRays) // else the prope
     constexpr int rays = 20000;
     for (int i = 0; i < rays; ++i) {
         const auto [sphere, ray] = some_encounter(random);
-        const auto expected =
-            ref::intersect_sphere(cuda_test::exactly(ray), ref::Vec3(sphere.center), sphere.radius);
+        const auto expected = ref::intersect_sphere(fast_trees_test::exactly(ray),
+                                                    ref::Vec3(sphere.center), sphere.radius);
         Hit hit{};
         const bool found = intersect_sphere(ray, sphere, ray.t_max, hit);
         same += found == expected.has_value() ? 1 : 0;
-        certain += cuda_test::verdict(ray, sphere).certain ? 1 : 0;
+        certain += fast_trees_test::hit_bounds(ray, sphere).certain ? 1 : 0;
     }
     EXPECT_GT(same, rays * 95 / 100);
     EXPECT_GT(certain, rays / 4);

@@ -5,7 +5,7 @@
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/scene_geometry.h"
-#include "tests/cuda/path_judge/ray_verdict.h"
+#include "tests/cuda/trees/hit_bounds.h"
 #include "tests/cuda/trees/triangles.h"
 
 #include <gtest/gtest.h>
@@ -82,7 +82,7 @@ Ray some_ray(const Shapes& shapes, Random& random)
 /// The closest hit without a tree.
 Hit linear_search_of(const Shapes& shapes, const Ray& ray)
 {
-    Hit best = cuda_test::linear_search(shapes.triangles, ray);
+    Hit best = fast_trees_test::linear_search(shapes.triangles, ray);
     for (std::size_t i = 0; i < shapes.spheres.size(); ++i) {
         Hit hit{0, static_cast<std::uint32_t>(shapes.triangles.size() + i), 0, 0};
         if (intersect_sphere(ray, shapes.spheres[i], ray.t_max, hit) && hit.t < best.t) best = hit;
@@ -133,16 +133,17 @@ RC_GTEST_PROP(Surfaces, AreHitWhereDoublePrecisionHitsThemWithinTheDerivedBounds
     for (int i = 0; i < 50; ++i) {
         const Ray ray = some_ray(shapes, random);
         if (ray.direction == Vec3(0)) continue;
-        std::vector<cuda_test::Verdict> verdicts;
+        std::vector<fast_trees_test::HitBounds> bounds;
         for (const Triangle& triangle : shapes.triangles)
-            verdicts.push_back(cuda_test::verdict(ray, triangle));
-        for (const Sphere& sphere : shapes.spheres) verdicts.push_back(cuda_test::verdict(ray, sphere));
+            bounds.push_back(fast_trees_test::hit_bounds(ray, triangle));
+        for (const Sphere& sphere : shapes.spheres)
+            bounds.push_back(fast_trees_test::hit_bounds(ray, sphere));
         const Hit hit = intersect(tree.view<true>(), ray);
-        for (const cuda_test::Verdict& verdict : verdicts)
-            RC_ASSERT(!verdict.certain || hit.t <= verdict.highest);
+        for (const fast_trees_test::HitBounds& one : bounds)
+            RC_ASSERT(!one.certain || hit.t <= one.highest);
         if (hit.primitive == fast::no_primitive) continue;
-        RC_ASSERT(verdicts[hit.primitive].possible);
-        RC_ASSERT(verdicts[hit.primitive].lowest <= hit.t && hit.t <= verdicts[hit.primitive].highest);
+        RC_ASSERT(bounds[hit.primitive].possible);
+        RC_ASSERT(bounds[hit.primitive].lowest <= hit.t && hit.t <= bounds[hit.primitive].highest);
     }
 }
 
@@ -169,7 +170,7 @@ TEST(Surfaces, ThatAreAskedByNoRayAnswerThatNothingIsHit)
     fast::HostMemory memory;
     fast::SerialExecutor serial;
     const trees_test::Mesh mesh = trees_test::icosphere(2, 1);
-    const SurfaceTree tree(memory, serial, cuda_test::triangles_of(mesh), {{{Vec3(0), 0.5f}}});
+    const SurfaceTree tree(memory, serial, fast_trees_test::triangles_of(mesh), {{{Vec3(0), 0.5f}}});
     const Vec3 inside(0.1f, 0.2f, 0.7f);
     const Vec3 up(0, 0, 1);
     ASSERT_TRUE(occluded(tree.view<true>(), {inside, infinity, up}));

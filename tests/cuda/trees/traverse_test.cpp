@@ -3,8 +3,8 @@
 
 #include "cuda/trees/traverse.h"
 
-#include "tests/cuda/path_judge/ray_verdict.h"
 #include "tests/cuda/trees/build_on.h"
+#include "tests/cuda/trees/hit_bounds.h"
 #include "tests/cuda/trees/triangles.h"
 
 #include <gtest/gtest.h>
@@ -15,12 +15,12 @@
 
 namespace {
 
-using cuda_test::linear_search;
-using cuda_test::Traceable;
 using fast::Hit;
 using fast::Ray;
 using fast::Triangle;
 using fast::Vec3;
+using fast_trees_test::linear_search;
+using fast_trees_test::Traceable;
 using trees_test::Random;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -38,24 +38,24 @@ TEST(IntersectTriangleInFloat, AgreesWithTheReferenceWithinItsRounding)
             (i % 2 == 0 ? 0.0 : random.magnitude(0, 2)) * scale * random.direction();
         Triangle triangle{};
         for (Vec3& vertex : triangle.vertices) vertex = Vec3(middle + scale * random.in_cube());
-        const auto v = cuda_test::exactly(triangle);
+        const auto v = fast_trees_test::exactly(triangle);
         const ref::Vec3 b = random.barycentric() * 1.5 - 0.25; // inside, and not far outside
         const Vec3 origin(middle + scale * random.magnitude(-1, 1) * random.in_cube());
         const Vec3 direction((b[0] * v[0] + b[1] * v[1] + b[2] * v[2] - ref::Vec3(origin)) *
                              random.magnitude(-3, 3));
         const Ray ray{origin, infinity, direction};
 
-        const cuda_test::Verdict verdict = cuda_test::verdict(ray, triangle);
-        const auto expected = ref::intersect_triangle(ref::ShearedRay(cuda_test::exactly(ray)), v);
+        const fast_trees_test::HitBounds bounds = fast_trees_test::hit_bounds(ray, triangle);
+        const auto expected = ref::intersect_triangle(ref::ShearedRay(fast_trees_test::exactly(ray)), v);
         Hit hit{};
         const bool is_hit = intersect_triangle(fast::ShearedRay(ray), triangle, ray.t_max, hit);
-        if (verdict.certain) {
+        if (bounds.certain) {
             ASSERT_TRUE(is_hit && expected) << "ray " << i;
-            EXPECT_TRUE(verdict.lowest <= hit.t && hit.t <= verdict.highest) << "ray " << i;
-            EXPECT_NEAR(hit.b1, expected->barycentric[1], 2 * verdict.margin + 2 * u) << "ray " << i;
-            EXPECT_NEAR(hit.b2, expected->barycentric[2], 2 * verdict.margin + 2 * u) << "ray " << i;
+            EXPECT_TRUE(bounds.lowest <= hit.t && hit.t <= bounds.highest) << "ray " << i;
+            EXPECT_NEAR(hit.b1, expected->barycentric[1], 2 * bounds.margin + 2 * u) << "ray " << i;
+            EXPECT_NEAR(hit.b2, expected->barycentric[2], 2 * bounds.margin + 2 * u) << "ray " << i;
             ++hits;
-        } else if (verdict.possible) {
+        } else if (bounds.possible) {
             ++unclear;
         } else {
             EXPECT_FALSE(is_hit) << "ray " << i;
@@ -237,7 +237,7 @@ TEST(ClosedMeshesInFloat, NoRayFromInsideEscapes)
     for (const Placement& placement : placements)
         for (std::size_t number = 0; number < meshes.size(); ++number) {
             const trees_test::Mesh mesh = moved(meshes[number], placement.scale, placement.offset);
-            const Traceable tree(cuda_test::triangles_of(mesh));
+            const Traceable tree(fast_trees_test::triangles_of(mesh));
             int escaped = 0;
             for (int i = 0; i < 6000; ++i) {
                 const auto& [a, b, c] = mesh.triangles[random.below(mesh.triangles.size())];

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace cuda_test {
+namespace fast_trees_test {
 
 /// The vertices of a mesh rounded to the nearest float: triangles that shared a vertex still share it.
 inline std::vector<fast::Triangle> triangles_of(const trees_test::Mesh& mesh)
@@ -61,4 +61,4 @@ inline fast::Hit linear_search(std::span<const fast::Triangle> triangles, const 
     return best;
 }
 
-} // namespace cuda_test
+} // namespace fast_trees_test

@@ -140,7 +140,7 @@ RC_GTEST_PROP(WideTree, IsTheSameForEveryExecutor, ())
     fast::ThreadedExecutor threads(3, 1);
     const WideTree threaded = narrow.widened(threads);
     std::mt19937_64 schedule(random.bits());
-    cuda_test::InterleavedExecutor adversary(
+    parallel_test::InterleavedExecutor adversary(
         8, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(schedule() % ready); });
     const WideTree interleaved = narrow.widened(adversary);
     for (const WideTree* tree : {&threaded, &interleaved}) {
@@ -190,7 +190,7 @@ TEST(WideTree, TheDeepestOneFitsTheStack)
                             Vec3(random.direction())};
         const fast::Surfaces<false> surfaces{tree.view(), {}, leaves};
         const fast::Hit hit = intersect(surfaces, ray);
-        const fast::Hit expected = cuda_test::linear_search(triangles, ray);
+        const fast::Hit expected = fast_trees_test::linear_search(triangles, ray);
         EXPECT_EQ(hit.primitive, expected.primitive);
         EXPECT_EQ(hit.t, expected.t);
     }

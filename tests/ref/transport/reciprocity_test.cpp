@@ -92,9 +92,9 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Reciprocity,
 const Vec3 a(-0.7, -0.9, 1.6);
 const Vec3 b(0.4, 1.7, 0.5);
 
-// Light tracing misses light that the eye sees only by way of mirrors and glass. Path tracing misses light
-// that reaches a surface from a point light only by way of these. After the exchange the missing part is
-// another one. Therefore these two are tested with all materials made matte.
+// Light tracing misses light that the eye sees only by way of mirrors and glass. Path tracing misses
+// light that reaches a surface from a point light only by way of these. After the exchange the missing
+// part is another one. Therefore these two are tested with all materials made matte.
 TEST_P(Reciprocity, EyeAndLightInAirCanBeExchanged)
 {
     scenes::Scene scene = stage();

@@ -11,10 +11,10 @@
 #include <cmath>
 #include <limits>
 
-namespace cuda_test {
+namespace fast_trees_test {
 
 /// If there is a hit, then at lowest <= t <= highest; if `certain`, there must be one.
-struct Verdict {
+struct HitBounds {
     bool possible;
     bool certain;
     double lowest, highest;
@@ -33,14 +33,14 @@ inline std::array<ref::Vec3, 3> exactly(const fast::Triangle& triangle)
 }
 
 /// The position of 0 and t_max relative to [lowest, highest] decides the rest.
-inline Verdict settled(const fast::Ray& ray, bool certain, double lowest, double highest,
-                       double margin = 0)
+inline HitBounds settled(const fast::Ray& ray, bool certain, double lowest, double highest,
+                         double margin = 0)
 {
     return {highest > 0 && lowest < ray.t_max, certain && lowest > 0 && highest < ray.t_max, lowest,
             highest, margin};
 }
 
-constexpr Verdict impossible{false, false, 0, 0, 0};
+constexpr HitBounds impossible{false, false, 0, 0, 0};
 
 // The test in float uses vertices that are perturbed by at most 7 u D across the ray and 3 u D along
 // it (see slabs.h), where D is the largest coordinate of v - o, and is exact for those. The reference
@@ -50,7 +50,7 @@ constexpr Verdict impossible{false, false, 0, 0, 0};
 // traced began within that distance of this ray's origin, and passed within that distance of this ray.
 // Across the ray this is 3 slack after the shear, whose factors are at most 1. Along it, it is 2 slack
 // over the length of the direction, whose largest component is 0.57 of the length.
-inline Verdict verdict(const fast::Ray& ray, const fast::Triangle& triangle, double slack = 0)
+inline HitBounds hit_bounds(const fast::Ray& ray, const fast::Triangle& triangle, double slack = 0)
 {
     constexpr double u = 0x1p-24;
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ inline Verdict verdict(const fast::Ray& ray, const fast::Triangle& triangle, dou
 // A reported hit is within 22 u M of the sphere (see sphere.h): it is a hit of a sphere that is larger
 // or smaller by that. Whether the origin is inside must be certain by the same margin. `slack` as
 // above: the sphere may be displaced by that distance.
-inline Verdict verdict(const fast::Ray& ray, const fast::Sphere& sphere, double slack = 0)
+inline HitBounds hit_bounds(const fast::Ray& ray, const fast::Sphere& sphere, double slack = 0)
 {
     const ref::Ray exact = exactly(ray);
     const ref::Vec3 f = exact.origin - ref::Vec3(sphere.center);
@@ -110,4 +110,4 @@ inline Verdict verdict(const fast::Ray& ray, const fast::Sphere& sphere, double 
     return settled(ray, false, middle - longest, middle + longest);
 }
 
-} // namespace cuda_test
+} // namespace fast_trees_test
