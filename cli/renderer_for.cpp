@@ -4,7 +4,7 @@
 #include "cli/scene_input.h"
 #include "cuda/launch/renderer.h"
 #include "cuda/scene/float_notices.h"
-#include "ref/transport/render.h"
+#include "ref/transport/renderer.h"
 
 #include <iostream>
 #include <stdexcept>

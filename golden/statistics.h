@@ -93,8 +93,7 @@ double detectable_difference(double standard_error, double degrees, double alpha
 /// The smallest effect e > 0 that mann_whitney at level `alpha` finds with probability `power` between
 /// `count` values and `reference`, if it multiplies the values of `reference` by 1 + e.
 /// Infinite if there is none below 100, for example where even complete separation does not reach the
-/// level. `reference`
-/// sorted, of positive mean.
+/// level. `reference` must be sorted and have a positive mean.
 double detectable_scale(std::span<const double> reference, double count, double alpha, double power);
 
 /// The same for an effect that adds e to each value.

@@ -11,7 +11,7 @@
 #include "ref/transport/bdpt.h"
 #include "ref/transport/connect.h"
 #include "ref/transport/path_tracer.h"
-#include "ref/transport/render.h"
+#include "ref/transport/renderer.h"
 #include "ref/transport/subpath.h"
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 #include "docs/figures/program.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
-#include "ref/transport/render.h"
+#include "ref/transport/renderer.h"
 
 #include <array>
 #include <chrono>

@@ -10,7 +10,7 @@
 #include "images/write_image.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
-#include "ref/transport/render.h"
+#include "ref/transport/renderer.h"
 
 #include <array>
 #include <cmath>

@@ -81,6 +81,38 @@ struct Task {
 /// inputs where the best split always separates a single primitive.
 constexpr int max_sah_depth = 64;
 
+/// Moves the primitives of the left child to the front of the task's range, in every list. `goes_left`
+/// and `scratch` are reused memory.
+void partition(SortedLists& lists, const Task& task, const Split& split,
+               std::vector<std::uint8_t>& goes_left, std::vector<std::uint32_t>& scratch)
+{
+    const std::size_t end = task.first + task.count;
+    for (std::size_t i = task.first; i < end; ++i)
+        goes_left[lists[split.axis][i]] = i < task.first + split.left ? 1 : 0;
+    for (std::vector<std::uint32_t>& list : lists) {
+        const auto begin = list.begin() + static_cast<std::ptrdiff_t>(task.first);
+        const auto list_end = list.begin() + static_cast<std::ptrdiff_t>(end);
+        scratch.assign(begin, list_end);
+        const auto middle = std::copy_if(scratch.begin(), scratch.end(), begin,
+                                         [&](std::uint32_t p) { return goes_left[p] != 0; });
+        std::copy_if(scratch.begin(), scratch.end(), middle,
+                     [&](std::uint32_t p) { return goes_left[p] == 0; });
+    }
+}
+
+/// Marks a child that is a leaf, until the number of internal nodes is known.
+constexpr std::uint32_t leaf_mark = 0x8000'0000;
+
+/// Appends the leaves to the internal nodes, and replaces marked children by their final numbers.
+void append_leaves(std::vector<Node>& nodes, const std::vector<Node>& leaves)
+{
+    for (Node& node : nodes)
+        for (std::uint32_t& child : node.children)
+            if ((child & leaf_mark) != 0)
+                child = static_cast<std::uint32_t>(nodes.size()) + (child & ~leaf_mark);
+    nodes.insert(nodes.end(), leaves.begin(), leaves.end());
+}
+
 } // namespace
 
 Tree build_sah(std::span<const Aabb> boxes, std::size_t max_leaf_size)
@@ -93,8 +125,6 @@ Tree build_sah(std::span<const Aabb> boxes, std::size_t max_leaf_size)
     std::vector<std::uint32_t> scratch;
     std::vector<Node> leaves;
 
-    // Children of internal nodes that are leaves are marked until the number of internal nodes is known.
-    constexpr std::uint32_t leaf_mark = 0x8000'0000;
     std::vector<Task> tasks{{0, boxes.size(), no_node, 0, 0}};
     while (!tasks.empty()) {
         const Task task = tasks.back();
@@ -124,27 +154,13 @@ Tree build_sah(std::span<const Aabb> boxes, std::size_t max_leaf_size)
         }
         tree.nodes.push_back(node);
 
-        for (std::size_t i = task.first; i < end; ++i)
-            goes_left[lists[split.axis][i]] = i < task.first + split.left ? 1 : 0;
-        for (std::vector<std::uint32_t>& list : lists) {
-            const auto begin = list.begin() + static_cast<std::ptrdiff_t>(task.first);
-            const auto list_end = list.begin() + static_cast<std::ptrdiff_t>(end);
-            scratch.assign(begin, list_end);
-            const auto middle = std::copy_if(scratch.begin(), scratch.end(), begin,
-                                             [&](std::uint32_t p) { return goes_left[p] != 0; });
-            std::copy_if(scratch.begin(), scratch.end(), middle,
-                         [&](std::uint32_t p) { return goes_left[p] == 0; });
-        }
+        partition(lists, task, split, goes_left, scratch);
         // The left child is pushed last and taken first, so leaves are numbered from left to right.
         tasks.push_back({task.first + split.left, task.count - split.left, number, 1, task.depth + 1});
         tasks.push_back({task.first, split.left, number, 0, task.depth + 1});
     }
 
-    for (Node& node : tree.nodes)
-        for (std::uint32_t& child : node.children)
-            if ((child & leaf_mark) != 0)
-                child = static_cast<std::uint32_t>(tree.nodes.size()) + (child & ~leaf_mark);
-    tree.nodes.insert(tree.nodes.end(), leaves.begin(), leaves.end());
+    append_leaves(tree.nodes, leaves);
     tree.leaf_begin.push_back(static_cast<std::uint32_t>(boxes.size()));
     tree.primitives = std::move(lists[0]);
     refit(tree, boxes);

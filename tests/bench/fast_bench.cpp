@@ -15,6 +15,7 @@
 #include "cuda/trees/surfaces.h"
 #include "tests/bench/bumpy_sphere.h"
 #include "tests/bench/embree.h"
+#include "tests/cuda/trees/binary_tree.h"
 
 #include <benchmark/benchmark.h>
 
@@ -59,12 +60,12 @@ public:
         const std::vector<fast::Aabb> boxes = fast::boxes_of(scene);
         tree_.build(executor, boxes);
         clustered_.build(executor, boxes, tree_);
-        executor(count_, fast::OrderTriangles{triangles_, tree_.primitives(), ordered_});
+        executor(count_, fast_trees_test::OrderTriangles{triangles_, tree_.primitives(), ordered_});
         for (const bool clustered : {false, true})
             wide_.emplace_back(memory_, executor, narrow(clustered).nodes, tree_.primitives(),
                                triangles_);
     }
-    [[nodiscard]] fast::TreeView narrow(bool clustered) const
+    [[nodiscard]] fast_trees_test::TreeView narrow(bool clustered) const
     {
         return {clustered ? clustered_.nodes() : tree_.nodes(), tree_.primitives(), ordered_};
     }
@@ -115,7 +116,7 @@ Rays make_rays(const Traceable& scene)
 
 /// The hits of a ray in a leaf of a narrow tree.
 template <class Found>
-void intersect(const fast::TreeView& tree, std::uint32_t leaf, const fast::Ray& ray,
+void intersect(const fast_trees_test::TreeView& tree, std::uint32_t leaf, const fast::Ray& ray,
                const fast::ShearedRay& sheared, const Found& found)
 {
     fast::Hit hit{0, tree.primitives[leaf], 0, 0};
@@ -130,7 +131,7 @@ void intersect(const fast::Surfaces<false>& tree, std::uint32_t group, const fas
     intersect_group(tree, group, ray, sheared, found);
 }
 
-const fast::TreeView& nodes_of(const fast::TreeView& tree)
+const fast_trees_test::TreeView& nodes_of(const fast_trees_test::TreeView& tree)
 {
     return tree;
 }

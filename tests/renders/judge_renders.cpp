@@ -5,7 +5,7 @@
 
 #include "cli/progress.h"
 #include "golden/compare.h"
-#include "ref/transport/render.h"
+#include "ref/transport/renderer.h"
 #include "scenes/read_scene.h"
 #include "tests/renders/mistakes.h"
 

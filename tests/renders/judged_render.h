@@ -4,7 +4,7 @@
 
 #include "golden/compare.h"
 #include "golden/report.h"
-#include "ref/transport/render.h"
+#include "ref/transport/renderer.h"
 #include "scenes/read_scene.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 // reference, for tests that compare renderers.
 
 #include "cuda/launch/renderer.h"
-#include "ref/transport/render.h"
+#include "ref/transport/renderer.h"
 
 #include <gtest/gtest.h>
 

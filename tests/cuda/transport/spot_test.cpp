@@ -29,7 +29,7 @@
 
 #include "cuda/launch/renderer.h"
 #include "ref/transport/path_tracer.h"
-#include "ref/transport/render.h"
+#include "ref/transport/renderer.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

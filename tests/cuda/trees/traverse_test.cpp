@@ -3,6 +3,7 @@
 
 #include "cuda/trees/traverse.h"
 
+#include "tests/cuda/trees/binary_tree.h"
 #include "tests/cuda/trees/build_on.h"
 #include "tests/cuda/trees/hit_bounds.h"
 #include "tests/cuda/trees/triangles.h"
@@ -208,9 +209,9 @@ TEST(TraverseInFloat, EveryExecutorFindsTheSameHits)
     std::vector<std::uint8_t> any(500);
     fast::SerialExecutor serial_executor;
     fast::ThreadedExecutor threads(3, 1);
-    serial_executor(500, fast::IntersectRays<fast::TreeView>{tree.narrow(), rays, serial});
+    serial_executor(500, fast::IntersectRays<fast_trees_test::TreeView>{tree.narrow(), rays, serial});
     threads(500, fast::IntersectRays<fast::Surfaces<false>>{tree.wide(), rays, threaded});
-    threads(500, fast::TestOcclusion<fast::Surfaces<false>>{tree.wide(), rays, any});
+    threads(500, fast_trees_test::TestOcclusion<fast::Surfaces<false>>{tree.wide(), rays, any});
     for (std::size_t i = 0; i < 500; ++i) {
         EXPECT_TRUE(same(serial[i], threaded[i])) << i;
         EXPECT_EQ(any[i] == 1, serial[i].primitive != fast::no_primitive) << i;

@@ -5,6 +5,7 @@
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/lbvh.h"
 #include "cuda/trees/surfaces.h"
+#include "tests/cuda/trees/binary_tree.h"
 #include "tests/ref/trees/meshes.h"
 
 #include <optional>
@@ -36,10 +37,13 @@ public:
         tree_.build(executor, boxes);
         fast::throw_if_rejected(tree_.first_rejected(), boxes);
         ordered_.resize(n);
-        executor(n, fast::OrderTriangles{triangles, tree_.primitives(), ordered_});
+        executor(n, fast_trees_test::OrderTriangles{triangles, tree_.primitives(), ordered_});
         wide_.emplace(memory_, executor, triangles, std::span<const fast::Sphere>());
     }
-    [[nodiscard]] fast::TreeView narrow() const { return {tree_.nodes(), tree_.primitives(), ordered_}; }
+    [[nodiscard]] fast_trees_test::TreeView narrow() const
+    {
+        return {tree_.nodes(), tree_.primitives(), ordered_};
+    }
     [[nodiscard]] fast::Surfaces<false> wide() const { return wide_->view<false>(); }
 
 private:

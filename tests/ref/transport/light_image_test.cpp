@@ -1,7 +1,7 @@
 // The place of splats on the film, and their division.
 
 #include "ref/transport/bdpt.h"
-#include "ref/transport/render.h"
+#include "ref/transport/renderer.h"
 #include "tests/ref/transport/estimate.h"
 #include "tests/ref/transport/scene_files.h"
 

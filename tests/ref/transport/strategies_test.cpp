@@ -1,4 +1,4 @@
-#include "ref/transport/render.h"
+#include "ref/transport/renderer.h"
 #include "tests/ref/transport/scene_files.h"
 
 #include <gtest/gtest.h>

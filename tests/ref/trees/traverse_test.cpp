@@ -3,8 +3,8 @@
 #include "ref/trees/traverse.h"
 
 #include "ref/trees/geometry.h"
-#include "ref/trees/linear_search.h"
 #include "tests/ref/trees/boxes.h"
+#include "tests/ref/trees/linear_search.h"
 
 namespace {
 
@@ -153,7 +153,7 @@ TEST(Traverse,
                 Geometry(scene, builders[3])};
             for (std::size_t i = 0; i < 20000; ++i) {
                 const Ray ray = some_ray(scene, place.scale, place.offset, random);
-                const std::optional<Hit> expected = intersect_by_linear_search(scene, ray);
+                const std::optional<Hit> expected = trees_test::intersect_by_linear_search(scene, ray);
                 const Geometry& geometry = geometries[i % geometries.size()];
                 ASSERT_TRUE(same(intersect(geometry, ray), expected))
                     << "scale " << place.scale << " ray " << i;

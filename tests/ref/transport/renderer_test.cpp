@@ -1,6 +1,6 @@
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
-#include "ref/transport/render.h"
+#include "ref/transport/renderer.h"
 #include "tests/ref/transport/changed_scene.h"
 #include "tests/ref/transport/scene_files.h"
 

@@ -5,17 +5,18 @@
 
 #include "ref/trees/intersect_primitive.h"
 
-namespace ref {
+namespace trees_test {
 
-inline std::optional<Hit> intersect_by_linear_search(const scenes::Scene& scene, const Ray& ray)
+inline std::optional<ref::Hit> intersect_by_linear_search(const scenes::Scene& scene,
+                                                          const ref::Ray& ray)
 {
-    const ShearedRay sheared(ray);
-    std::optional<Hit> closest;
+    const ref::ShearedRay sheared(ray);
+    std::optional<ref::Hit> closest;
     for (std::uint32_t primitive = 0; primitive < scenes::primitive_count(scene); ++primitive) {
-        const auto hit = intersect_primitive(scene, ray, sheared, primitive);
+        const auto hit = ref::intersect_primitive(scene, ray, sheared, primitive);
         if (hit && (!closest || comes_before(*hit, *closest))) closest = hit;
     }
     return closest;
 }
 
-} // namespace ref
+} // namespace trees_test

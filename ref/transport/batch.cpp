@@ -1,7 +1,5 @@
-#include "ref/transport/render.h"
+#include "ref/transport/batch.h"
 
-#include "ref/transport/bdpt.h"
-#include "ref/transport/path_tracer.h"
 #include "ref/trees/aabb.h"
 
 #include <algorithm>
@@ -9,8 +7,6 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
-#include <optional>
-#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -74,10 +70,10 @@ private:
 /// first a pixel's own samples, one after the other; separately the splats of light walks on it, tile
 /// by tile; then the sum of both. The splats of a tile that is done before its turn are stored; the
 /// others are summed at once, because the splats of a whole picture would not fit in memory.
-class BatchInMaking {
+class BatchSums {
 public:
-    BatchInMaking(const World& world, Integrator integrator, const images::RenderOptions& options,
-                  std::uint64_t number)
+    BatchSums(const World& world, Integrator integrator, const images::RenderOptions& options,
+              std::uint64_t number)
         : world_(world), integrator_(integrator), options_(options), number_(number),
           tiles_(tiles_of(world.camera.width(), world.camera.height())),
           sum_(world.camera.width(), world.camera.height()), waiting_(tiles_.size()),
@@ -197,65 +193,13 @@ private:
     std::exception_ptr error_;
 };
 
-class RefRenderer : public images::Renderer {
-public:
-    RefRenderer(const World& world, Integrator integrator, const images::RenderOptions& options,
-                unsigned threads)
-        : world_(world), integrator_(integrator), options_(options), threads_(threads)
-    {
-        images::check(options);
-    }
-
-private:
-    std::optional<images::Batch> make_batch(std::uint64_t number,
-                                            const images::Monitor& monitor) override
-    {
-        return BatchInMaking(world_, integrator_, options_, number).run(threads_, monitor);
-    }
-
-    const World& world_;
-    Integrator integrator_;
-    images::RenderOptions options_;
-    unsigned threads_;
-};
-
-/// World is the first base, because the renderer refers to it.
-class SceneRenderer : private World, public RefRenderer {
-public:
-    SceneRenderer(const scenes::Scene& source, int width, int height,
-                  const images::RenderOptions& options, unsigned threads, Builder builder)
-        : World(source, width, height, builder),
-          RefRenderer(static_cast<const World&>(*this), integrator_of(options.integrator), options,
-                      threads)
-    {}
-};
-
 } // namespace
 
-Integrator integrator_of(images::Integrator name)
+std::optional<images::Batch> sample_batch(const World& world, Integrator integrator,
+                                          const images::RenderOptions& options, std::uint64_t number,
+                                          unsigned threads, const images::Monitor& monitor)
 {
-    switch (name) {
-    case images::Integrator::path:
-        return trace_path;
-    case images::Integrator::bdpt:
-        return trace_bidirectionally;
-    case images::Integrator::light:
-        return trace_light;
-    }
-    throw std::invalid_argument("unknown integrator");
-}
-
-std::unique_ptr<images::Renderer> renderer(const World& world, Integrator integrator,
-                                           const images::RenderOptions& options, unsigned threads)
-{
-    return std::make_unique<RefRenderer>(world, integrator, options, threads);
-}
-
-std::unique_ptr<images::Renderer> renderer(const scenes::Scene& scene, int width, int height,
-                                           const images::RenderOptions& options, unsigned threads,
-                                           Builder builder)
-{
-    return std::make_unique<SceneRenderer>(scene, width, height, options, threads, builder);
+    return BatchSums(world, integrator, options, number).run(threads, monitor);
 }
 
 } // namespace ref
