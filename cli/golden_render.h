@@ -21,7 +21,7 @@ RenderCommand render_of(const GoldenCommand& options, const std::string& scene);
 /// The same, read back from a golden's metadata. Throws std::invalid_argument if something is missing.
 RenderCommand render_of(const golden::Golden& golden, const std::string& scene);
 
-/// Where the golden of a scene file lies.
+/// The path of the golden of a scene file.
 std::filesystem::path golden_file(const GoldenCommand& options, const std::string& scene);
 
 } // namespace cli

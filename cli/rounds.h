@@ -22,7 +22,7 @@ struct Measured {
 /// roughly normally distributed. Throws std::invalid_argument for fewer than two rounds.
 Measured mean_of_rounds(const std::vector<double>& rounds);
 
-/// How many times as large one thing is as another, with its 95% interval.
+/// The ratio of two quantities, with its 95% interval.
 struct Ratio {
     double ratio, low, high;
     /// Whether the interval leaves out 1: only then one of the two is larger.

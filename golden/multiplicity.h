@@ -1,6 +1,6 @@
 #pragma once
 
-// How many tests share the chance of a false alarm.
+// The number of tests that share the chance of a false alarm.
 
 #include "golden/functionals.h"
 #include "golden/method.h"

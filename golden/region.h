@@ -29,7 +29,7 @@ struct Region {
 /// In words: "the whole picture", "tile 32..47, 0..15", "luminance stratum 3 of 16".
 std::string describe(const Region& region);
 
-/// How the pixels of a region are weighed, with m and v the pilot's mean and variance of a batch.
+/// The weights of the pixels of a region, with m and v the pilot's mean and variance of a batch.
 enum class Weight {
     matched, // m / v: least variance for a relative error that is the same in all of the region
     plain,   // 1: the mean, to which few bright noisy pixels contribute as well

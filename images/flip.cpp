@@ -110,7 +110,7 @@ Image seen(const Image& opponent, double pixels_per_degree)
     return result;
 }
 
-/// How strong edges and points are at each pixel: first and second derivatives of a Gaussian as wide as
+/// The strength of edges and points at each pixel: first and second derivatives of a Gaussian as wide as
 /// the eye's feature detectors, positive and negative weights each summing to one
 /// [Andersson et al. 2020, sec. 4.2].
 struct Features {

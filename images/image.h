@@ -47,7 +47,7 @@ struct PixelPosition {
 /// The first pixel, row by row, with a channel that is NaN or infinite; none if all are finite.
 std::optional<PixelPosition> first_non_finite(const Image& image);
 
-/// How a picture was made: scene, integrator, samples, seed and so on, by name.
+/// The origin of a picture by name: scene, integrator, samples, seed and so on.
 using Metadata = std::map<std::string, std::string>;
 
 } // namespace images

@@ -13,7 +13,7 @@ enum class Integrator {
     light // light image alone, with weight 1
 };
 
-/// How strategies that can make the same path share it [Veach 1997, sec. 9.2].
+/// The weights of strategies that can make the same path [Veach 1997, sec. 9.2].
 enum class Heuristic {
     balance, // in proportion to their densities
     power    // in proportion to the squares of their densities

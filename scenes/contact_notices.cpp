@@ -1,4 +1,4 @@
-// What a person should know about surfaces that touch; the rules stand in contacts.h.
+// Notices for the user about surfaces that touch. The rules are in contacts.h.
 
 #include "scenes/contacts.h"
 

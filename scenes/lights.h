@@ -59,7 +59,7 @@ constexpr bool has_position = requires(Light light)
     light.position;
 };
 
-/// What the light emits: intensity (W sr^-1) of a light at a point, irradiance (W m^-2) of one at
+/// The emission of the light: intensity (W sr^-1) of a light at a point, irradiance (W m^-2) of one at
 /// infinity.
 template <class Light>
 auto& emitted_by(Light& light)

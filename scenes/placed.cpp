@@ -90,7 +90,7 @@ Vec3 new_origin(const Bounds& box)
     return step_in_diagonals * glm::round(center / step_in_diagonals);
 }
 
-/// How far apart doubles are at the scene's coordinates, in diagonals (of 1 to 2).
+/// Checks the spacing of doubles at the scene's coordinates, relative to its diagonal (1 to 2).
 void check_spacing(Scene& scene, const Bounds& box)
 {
     const double farthest = std::max(largest_component(box.min), largest_component(box.max));

@@ -135,7 +135,7 @@ private:
     std::size_t lines_ = 0;
 };
 
-/// Listens for messages that Assimp has dropped triangles: these messages appear only in its log, and a
+/// Collects the messages that Assimp has dropped triangles: these messages appear only in its log, and a
 /// process has only one log.
 class DropListener {
 public:

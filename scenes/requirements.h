@@ -10,8 +10,8 @@
 
 namespace scenes {
 
-/// What a scene uses. `strategies` are those that can carry light for some path in it, as far as
-/// materials and emitters alone can tell (see requirements.cpp); visibility is not considered.
+/// The features that a scene uses. `strategies` are those that can carry light for some path in it, as
+/// far as materials and emitters alone can tell (see requirements.cpp); visibility is not considered.
 struct Requirements {
     std::set<Shape> shapes;
     std::set<Bsdf> bsdfs;

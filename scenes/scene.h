@@ -107,7 +107,7 @@ struct Scene {
 
     std::optional<Camera> camera;
 
-    /// What a person should know about how the file was understood; one line each.
+    /// Notices for the user about the interpretation of the file; one line each.
     std::vector<std::string> notices;
 };
 

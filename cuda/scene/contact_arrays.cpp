@@ -16,13 +16,14 @@ namespace fast {
 
 namespace {
 
-/// How far apart surfaces may be that coincide as floats, in units of a coordinate: each coordinate of
-/// each is rounded once, and the distance of their planes by sqrt(3) times that.
+/// The largest distance of surfaces that coincide as floats, relative to a coordinate. Each coordinate
+/// of both surfaces is rounded once, and this changes the distance of their planes by up to sqrt(3)
+/// times as much.
 constexpr double float_rounding = 4 * unit_roundoff;
 
 /// The largest clearance of any surface, at the end of the longest segment, in units of the scene's
-/// diagonal: 18 u for the ray and what has been rounded (end_clearance), and clearance.h; for a sphere
-/// 30 u.
+/// diagonal: 18 u for the rounding of the ray, the end and the surface (end_clearance), plus that of
+/// clearance.h; for a sphere 30 u.
 constexpr double largest_clearance = 30 * unit_roundoff + clearance_per_length;
 
 /// The scene where the arrays have it, in double precision. Its materials and names are left out.
@@ -167,10 +168,11 @@ struct Plane {
     double clearance; // how far a ray from the end must be moved; negative where it is clear already
 };
 
-/// How far from a primitive a ray must begin that leaves an end at `position` on it or near it, in the
-/// arrays' unit of length: that of clearance.h, and the floats' own errors of end and surface, which
-/// have been rounded since contacts were found. Each moves along every axis by u times its coordinate,
-/// and so does the sum that is the origin: sqrt(3) times that along the normal.
+/// The distance from a primitive at which a ray must begin that leaves an end at `position` on the
+/// primitive or near it, in the arrays' unit of length. It is the clearance of clearance.h plus the
+/// errors of the end and of the surface, which were rounded to floats after the contacts had been found.
+/// Both move along every axis by up to u times their coordinate, and so does the sum that is the origin
+/// of the ray: along the normal by sqrt(3) times that.
 double end_clearance(const SceneArrays& arrays, std::uint32_t primitive, const Vec3& position)
 {
     const auto largest = [](const Vec3& v) { return static_cast<double>(max_component(glm::abs(v))); };
@@ -189,7 +191,7 @@ double end_clearance(const SceneArrays& arrays, std::uint32_t primitive, const V
     return unit_roundoff * (rounded + root_3 * farthest + 8 * root_3 * extent);
 }
 
-/// How far `position` is from the surface of a primitive, or from the plane of a triangle.
+/// The distance of `position` from a sphere, or from the plane of a triangle.
 double distance_from(const scenes::Scene& scene, const scenes::NearSurface& surface,
                      const scenes::Vec3& position)
 {
@@ -200,7 +202,7 @@ double distance_from(const scenes::Scene& scene, const scenes::NearSurface& surf
     return std::abs(glm::length(position - sphere.center) - sphere.radius);
 }
 
-/// What is left of `v` without its part in the span of the normals of `planes`, which are independent.
+/// The component of `v` orthogonal to the normals of `planes`, which are independent.
 scenes::Vec3 orthogonal_part(scenes::Vec3 v, const std::vector<Plane>& planes)
 {
     std::vector<scenes::Vec3> basis; // orthonormal, of that span [Gram-Schmidt]
@@ -238,8 +240,8 @@ std::vector<scenes::Vec3> dual_basis(const std::vector<Plane>& planes)
     return dual;
 }
 
-/// What an end at `position` of the scene touches, judged where the file has it: there its coordinates
-/// were rounded.
+/// The surfaces that an end at `position` of the scene touches. They are found from the coordinates of
+/// the file, in double.
 EndContacts contacts_of(SceneArrays& arrays, const scenes::Scene& scene, const scenes::Vec3& position)
 {
     const double D = arrays.diagonal;

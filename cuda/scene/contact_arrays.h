@@ -6,9 +6,9 @@
 
 namespace fast {
 
-/// Fills in what `arrays` says of contacts: coincident surfaces, clearances (with the normals that these
-/// are measured along), and what the lights and the eye lie on,
-/// or lie so near that a float cannot tell on which side. Its other parts must be there.
+/// Fills in the contacts of `arrays`: coincident surfaces, clearances (with the normals along which they
+/// are measured), and the surfaces that the lights and the eye lie on, or lie so near that a float
+/// cannot decide on which side. The other parts of `arrays` must be complete.
 void add_contacts(SceneArrays& arrays, const scenes::Scene& scene);
 
 } // namespace fast

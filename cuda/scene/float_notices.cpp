@@ -17,7 +17,7 @@
 namespace fast {
 namespace {
 
-/// How many, and which is the first.
+/// The number of primitives of one sort, and the first of them.
 class Count {
 public:
     void add(std::uint32_t primitive)
@@ -58,7 +58,7 @@ double clearance_of(const scenes::Triangle& triangle, const Placement& place)
     return static_cast<double>(clearance_at(farthest, normal, own)) / place.scale;
 }
 
-/// How far the middle of b is from the plane of a.
+/// The distance of the centre of b from the plane of a.
 double distance_between(const scenes::Triangle& a, const scenes::Triangle& b)
 {
     const auto& v = a.vertices;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a person should know before a scene is rendered in single precision.
+// Notices about what single precision cannot represent in a scene, for the user to read before a render.
 
 #include "scenes/scene.h"
 
@@ -9,12 +9,13 @@
 
 namespace fast {
 
-/// A line for each kind of surface that floats do not hold: triangles that have area in the scene and
-/// none as floats, so that no ray meets them; and triangles and spheres so small for their distance from
-/// the centre of the scene that rays which leave them begin further off than the surface is large
-/// (clearance.h), and may miss what they should meet; and triangles of glass so close over another one
-/// that a ray which leaves them begins beyond it; and an eye or a light so close to a surface, but not
-/// on it, that floats do not know how far. Empty for an ordinary scene.
+/// One line for each of these, if the scene has any:
+///   - triangles that have an area in the scene and none as floats: no ray hits them;
+///   - triangles and spheres that are so small for their distance from the centre of the scene that rays
+///     which leave them begin at a distance larger than the surface (clearance.h), and may miss others;
+///   - triangles of glass so close over another surface that a ray which leaves them begins beyond it;
+///   - an eye or a light that is near a surface, but not on it, at a distance that floats cannot
+///   resolve.
 std::vector<std::string> float_notices(const scenes::Scene& scene);
 
 } // namespace fast

@@ -11,9 +11,9 @@
 
 namespace fast {
 
-/// Brings the centre of the scene to the origin, and its diameter to a number from 1 to 2, by a power of
-/// two: lengths that could be too large or too small for floats to square are not, and scaling a scene
-/// by a power of two changes no bit. Radiance is the same at any scale.
+/// Moves the centre of the scene to the origin, and scales by a power of two so that its diameter is
+/// between 1 and 2. So no square of a length overflows or underflows as a float, and scaling a scene by
+/// a power of two changes no bit. Radiance is the same at any scale.
 Placement placement_of(const scenes::Scene& scene);
 
 struct SceneArrays {
@@ -34,7 +34,8 @@ struct SceneArrays {
     bool has_environment = false;
     float radius = 0;
     float diagonal = 0;
-    float largest_survival = 0; // of all materials of surfaces: what a walk's length is bounded by
+    float largest_survival =
+        0; // the largest of all materials of surfaces: it bounds the length of walks
 };
 
 /// `scene` as arrays. With no `roulette` every material lets every walk go on. All sums are formed in
@@ -49,9 +50,9 @@ Camera camera_of(const scenes::Scene& scene, const Placement& place, int width, 
 /// kernel more than it saves (docs/cuda-bdpt.md has the measurements).
 Needs needs_of(const scenes::Requirements& required);
 
-/// How many vertices of a light walk need room. No walk is longer than `max_edges` allows; and where
-/// roulette ends walks, longer ones than this are rarer than 2^-24, which is the resolution of the
-/// uniform numbers that decide about them.
+/// The number of vertices of a light walk that memory is needed for. No walk is longer than `max_edges`
+/// allows. Where roulette ends walks, longer walks than this have a probability below 2^-24, which is
+/// the resolution of the uniform numbers.
 int most_light_vertices(const SceneArrays& arrays, int max_edges);
 
 } // namespace fast

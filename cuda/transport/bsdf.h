@@ -1,8 +1,8 @@
 #pragma once
 
-// Reflection and refraction at a surface: all that the fast path knows about a kind of material.
-// Directions are unit vectors of the local frame, z = geometric normal, and point away from the surface:
-// wo to the previous vertex of the walk, wi to the next.
+// Reflection and refraction at a surface. All code of the fast path that is for one kind of material is
+// here. Directions are unit vectors of the local frame, z = geometric normal, and point away from the
+// surface: wo to the previous vertex of the walk, wi to the next.
 
 #include "cuda/transport/random.h"
 #include "cuda/transport/sampling.h"
@@ -15,11 +15,12 @@ namespace fast {
 
 enum class MaterialKind : std::uint32_t { lambertian, mirror, glass, emission };
 
-/// One of scenes::Material, all kinds in one shape: a table of them is read by many threads at once.
+/// A scenes::Material as floats. All kinds have the same members, because kernels read them from one
+/// array.
 struct Material {
     MaterialKind kind;
     float ior;         // of glass
-    float survival;    // probability that a walk goes on from here once roulette plays
+    float survival;    // probability that a walk goes on from here, after bounces_without_roulette
     Rgb color;         // albedo, reflectance, or emitted radiance
     Rgb transmittance; // of glass
 };
@@ -53,7 +54,8 @@ inline Material material_of(const scenes::Material& source, bool roulette)
     return result;
 }
 
-/// What a walk carries [Veach 1997, sec. 5.2].
+/// The quantity that a walk transports: the eye walk radiance, the light walk power [Veach 1997,
+/// sec. 5.2].
 enum class Transport { radiance, power };
 
 /// The outcome of sampling a BSDF for `wi`.
@@ -68,8 +70,8 @@ struct BsdfSample {
     float pdf_rev; // of wo given wi
 };
 
-/// Whether light that arrives is spread over a range of directions, so that the vertex can be joined to
-/// one that was found without it.
+/// Whether the material scatters into a range of directions. Only such a vertex can be joined to one
+/// that was sampled independently.
 HD inline bool scatters(const Material& material)
 {
     return material.kind == MaterialKind::lambertian;

@@ -59,8 +59,8 @@ HD float pdf_emission_position(const Emitter& emitter)
                                        : emitter.probability;
 }
 
-/// The start of a walk from infinity is a uniform point of a disc that covers the scene: the density per
-/// area of the disc.
+/// The density, per area of the disc, of the start of a walk from infinity. The start is a uniform point
+/// of a disc that covers the scene.
 template <Needs needs>
 HD float pdf_area_disc(const SceneView<needs>& scene)
 {
@@ -82,7 +82,8 @@ struct IncidentLight {
     Vec3 target;               // where the segment to be tested ends, unless at infinity
 };
 
-/// Draws light for `from` by the first three numbers of `u`. False if there is none to come from there.
+/// Draws light for `from` by the first three numbers of `u`. False if no light comes from the point
+/// drawn.
 template <Needs needs>
 HD bool sample_incident(const SceneView<needs>& scene, const Vec3& from, const Uniforms& u,
                         IncidentLight& light)

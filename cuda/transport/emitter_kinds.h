@@ -1,11 +1,12 @@
 #pragma once
 
-// The kinds of emitters: all that the fast path knows about one kind and not about another.
+// The kinds of emitters. All code of the fast path that is for one kind only is here.
 //
 // An emitter is a surface (a triangle or a sphere), a source (a point without extent) or at infinity.
 // The code for each of these three classes is in emitter.h and emission.h. To add a kind of light: give
 // it data, a name and an enumerator in scenes/ (scene.h, lights.h, kinds.h and the reader). Write here
-// how it becomes a Light of floats (as_floats, power), and add it to the functions of its class below.
+// its conversion to floats (as_floats, power), and add it to the functions of its class below
+// (docs/extending.md).
 
 #include "cuda/transport/needs.h"
 #include "cuda/transport/sampling.h"

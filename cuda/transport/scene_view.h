@@ -1,7 +1,7 @@
 #pragma once
 
-// A scene as kernels see it: spans into arrays, one array for each thing that is read together. Lengths
-// are not the file's: the scene's centre is the origin and its diameter is between 1 and 2
+// A scene as kernels read it: spans into arrays. Data that are read together stand in one array. Lengths
+// are those of the scaled scene, whose centre is the origin and whose diameter is between 1 and 2
 // (scene_arrays.h).
 
 #include "cuda/transport/bsdf.h"
@@ -15,15 +15,17 @@ namespace fast {
 
 constexpr std::uint32_t no_emitter = 0xffff'ffff;
 
-/// A plane through an end of paths that is not a surface, or so near it that floats cannot tell its
-/// side. Adding `push` times a distance moves a point by that to the side of `normal`, and along the
-/// other planes of the end. Where the side is known `normal` is 0, and `push` goes to that side.
+/// A plane through an end of paths that is not a surface, or so near such an end that floats cannot
+/// decide on which side the end is. Adding `push` times a distance moves a point by that distance to the
+/// side of `normal`, and parallel to the other planes of the end. Where the side is known, `normal` is 0
+/// and `push` points to that side.
 struct ContactPlane {
     Vec3 normal, push;
     float clearance; // by which rays must be moved (clearance.h), less the end's own distance; maybe < 0
 };
 
-/// What shading must know of a primitive. Read at every vertex of a walk: within one line of the cache.
+/// The data of a primitive that shading needs. They are read at every vertex of a walk, so they fit in
+/// one cache line.
 struct alignas(32) Surface {
     std::uint32_t material;
     std::uint32_t emitter;      // or no_emitter
@@ -34,9 +36,9 @@ struct alignas(32) Surface {
 };
 static_assert(sizeof(Surface) == 32);
 
-/// Ranges of SceneView::coincident: surfaces that coincide with this one as far as floats can tell, and
-/// after them those so near that a segment which ends here may end beyond them. Number 0 is that of most
-/// surfaces, which have neither.
+/// Two adjacent ranges of SceneView::coincident: the surfaces that coincide with this one as floats, and
+/// those so near that a segment which ends here may end beyond them. Most surfaces have neither and use
+/// element 0.
 struct SurfaceContacts {
     std::uint32_t first_coincident, coincident_count, near_count;
 };
@@ -44,9 +46,9 @@ struct SurfaceContacts {
 /// A surface that coincides with another one, or nearly does.
 struct Coincident {
     std::uint32_t primitive;
-    std::int32_t side;  // of the other one, on which it lies: 1 that of the normal; 0: on it
+    std::int32_t side;  // on which side of the other one it lies: 1 that of the normal; 0: on it
     float largest_size; // of the other one: the diameter of a sphere; the extent of a triangle, or of
-                        // what coincides with it
+                        // a surface that coincides with it
 };
 
 template <Needs needs>
@@ -72,12 +74,13 @@ struct SceneView {
 /// A point on a surface.
 struct SurfacePoint {
     Vec3 position;
-    Vec3 normal;     // unit, geometric: by winding for a triangle, outward for a sphere
-    float clearance; // how far from the surface, along the normal, rays must begin (clearance.h)
+    Vec3 normal; // unit, geometric: by winding for a triangle, outward for a sphere
+    float
+        clearance; // the distance from the surface, along the normal, at which rays begin (clearance.h)
     std::uint32_t primitive;
 };
 
-/// Where a ray that leaves `point` in `direction` (of any length) begins, so that it does not meet the
+/// The origin of a ray that leaves `point` in `direction` (of any length) and does not hit the same
 /// surface again.
 HD inline Vec3 leave_surface(const SurfacePoint& point, const Vec3& direction)
 {
@@ -90,7 +93,7 @@ HD inline Vec3 leave_to_side(const SurfacePoint& point, const Vec3& facing)
     return point.position + point.clearance * facing;
 }
 
-/// Where a segment of that `length` ends that comes to `point` from the side of `facing`, which is the
+/// The end of a segment of that `length` that comes to `point` from the side of `facing`, which is the
 /// normal or its opposite.
 HD inline Vec3 end_at_surface(const SurfacePoint& point, const Vec3& facing, float length)
 {

@@ -11,8 +11,8 @@
 
 namespace ref {
 
-/// What a walk carries: the eye walk gathers radiance, the light walk spreads power. Only refraction
-/// tells them apart [Veach 1997, sec. 5.2].
+/// The quantity that a walk transports: the eye walk radiance, the light walk power. Only refraction
+/// treats them differently [Veach 1997, sec. 5.2].
 enum class Transport { radiance, power };
 
 /// The outcome of sampling a BSDF for `wi`.
@@ -24,8 +24,8 @@ struct BsdfSample {
     bool delta;     // the direction was certain once the lobe was chosen
 };
 
-/// Whether every direction that the material scatters into is certain: such a vertex can be joined to
-/// nothing, and neither can an emitter's surface, which scatters nothing.
+/// Whether the material scatters into single directions only, or not at all (an emitter's surface). Such
+/// a vertex cannot be joined to another one.
 inline bool is_delta(const scenes::Material& material)
 {
     return !std::holds_alternative<scenes::Lambertian>(material);
@@ -109,8 +109,8 @@ inline BsdfSample sample_bsdf(const scenes::Material& material, const Vec3& wo_l
     return std::visit([&](const auto& m) { return sample_bsdf(m, wo_local, u, carried); }, material);
 }
 
-/// What a delta lobe counts in the density of a path: wo and wi must be such that one is the other's
-/// reflection or refraction. The lobe's probability, times eta^2 |cos| on the side of wi.
+/// The factor of a delta lobe in the density of a path: the lobe's probability times eta^2 |cos| on the
+/// side of wi. One of wo and wi must be the reflection or refraction of the other.
 ///
 /// A delta lobe has no density per solid angle, but strategies that pass the vertex in opposite
 /// directions can still be compared: walking one way turns a cone d omega_o into the cone d omega_i, and

@@ -8,7 +8,7 @@
 
 namespace ref {
 
-/// The beginning of a light walk.
+/// The start of a light walk.
 struct SampledEmission {
     Vertex y0;
     Ray ray;   // from y0 (or from far outside the scene) into the scene
@@ -28,8 +28,9 @@ double pdf_emission_position(const Vertex& y0);
 /// The density of the next vertex, given y0: per area at `y1`.
 double pdf_area_emission_direction(const World& world, const Vertex& y0, const Vertex& y1);
 
-/// What y0 sends towards `y1` (never at infinity): radiance (W m^-2 sr^-1) of a surface or the
-/// environment, intensity (W sr^-1) of a point or spot light, irradiance (W m^-2) of a directional one.
+/// The light that y0 emits towards `y1` (which is not at infinity): radiance (W m^-2 sr^-1) of a surface
+/// or the environment, intensity (W sr^-1) of a point or spot light, irradiance (W m^-2) of a
+/// directional one.
 Rgb emitted(const World& world, const Vertex& y0, const Vertex& y1);
 
 /// Whether the eye walk can hit the emitter, and a pinhole see it.

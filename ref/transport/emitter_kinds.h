@@ -1,12 +1,12 @@
 #pragma once
 
-// The kinds of emitters: all that the reference knows about one kind and not about another.
+// The kinds of emitters. All code of the reference that is for one kind only is here.
 //
 // An emitter is a surface (a triangle or a sphere), a source (a point without extent) or at infinity.
-// What is common to these three is in emitter.cpp and emission.cpp. A source has four functions here,
-// and an emitter at infinity has five. To add a light: give it data, a name and a kind in scenes/
-// (scene.h, lights.h, kinds.h, and the reader), write its functions here, and list it in with_source or
-// with_distant.
+// The code for each of these three classes is in emitter.cpp and emission.cpp. A kind of source has four
+// functions here, a kind at infinity three. To add a kind of light: give it data, a name and an
+// enumerator in scenes/ (scene.h, lights.h, kinds.h and the reader), write its functions here, and list
+// it in visit_source or visit_distant (docs/extending.md).
 
 #include "ref/transport/sampling.h"
 #include "scenes/kinds.h"

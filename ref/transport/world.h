@@ -1,6 +1,6 @@
 #pragma once
 
-// What an integrator needs to know, and what it has to say.
+// The input of an integrator (World, PathOptions) and its output (Contribution).
 
 #include "images/render_options.h"
 #include "ref/transport/camera.h"
@@ -15,9 +15,9 @@
 
 namespace ref {
 
-/// A scene made ready for rendering. Keeps a reference to the scene, which must outlive it and must
-/// have a camera. Throws std::invalid_argument where the scene is so large or small that products of
-/// three lengths would leave the range of doubles: scenes::placed brings it there.
+/// A scene prepared for rendering. Keeps a reference to the scene, which must outlive it and must have a
+/// camera. Throws std::invalid_argument if the scene is so large or so small that products of three
+/// lengths would leave the range of doubles; scenes::placed scales a scene into this range.
 struct World {
     const scenes::Scene& scene;
     Geometry geometry;
@@ -54,7 +54,7 @@ inline Ray camera_ray(const World& world, const SampleId& id)
 using images::Heuristic;
 using images::unlimited_edges;
 
-/// How paths are made, the same for every integrator: the part of images::RenderOptions that it is for.
+/// The options of all integrators: the part of images::RenderOptions that concerns single paths.
 struct PathOptions {
     std::uint64_t seed = 0;
     int max_edges = unlimited_edges; // of a path, the camera's included; at least 1
@@ -62,7 +62,7 @@ struct PathOptions {
     Heuristic heuristic = Heuristic::balance; // of bidirectional path tracing
 };
 
-/// What one path adds to one pixel. The path has s vertices from the light and t from the eye
+/// The contribution of one path to one pixel. The path has s vertices from the light and t from the eye
 /// [Veach 1997, sec. 10.2], hence s + t - 1 edges.
 struct Contribution {
     std::uint32_t pixel; // the sample's own, unless t = 1: the light image falls anywhere
@@ -76,7 +76,7 @@ inline int edges(const Contribution& contribution)
     return contribution.s + contribution.t - 1;
 }
 
-/// An integrator appends to `out` what the sample `id` contributes: one function call is one sample.
+/// An integrator appends to `out` the contributions of the sample `id`: one function call is one sample.
 using Integrator = void (*)(const World& world, const PathOptions& options, const SampleId& id,
                             std::vector<Contribution>& out);
 

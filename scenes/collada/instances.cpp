@@ -16,7 +16,7 @@ namespace {
 // 80 bytes each: 1.3 GB. Instances of instances could ask for any number in a file of any size.
 constexpr std::size_t most_primitives = std::size_t{1} << 24U;
 
-/// Counter-clockwise seen from where it shines to: the side of local -z.
+/// Counter-clockwise seen from the side that it emits to, that of local -z.
 const std::vector<Corners> area_light_square = {
     {Vec3(-0.5, -0.5, 0), Vec3(-0.5, 0.5, 0), Vec3(0.5, 0.5, 0)},
     {Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 0), Vec3(0.5, -0.5, 0)},
