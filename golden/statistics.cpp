@@ -164,6 +164,12 @@ Moments moments(std::span<const double> values)
     Moments result;
     result.count = static_cast<double>(values.size());
     if (values.empty()) return result;
+    // A rounded mean of equal values would differ from all of them by the same error, a skewness of 1 or
+    // -1.
+    if (std::ranges::all_of(values, [&](double value) { return value == values.front(); })) {
+        result.mean = values.front();
+        return result;
+    }
     for (const double value : values) result.mean += value;
     result.mean /= result.count;
     double squares = 0.0;

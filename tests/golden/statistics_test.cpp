@@ -79,6 +79,11 @@ TEST(Moments, OfNothingOneValueOrEqualValuesAreFinite)
     EXPECT_EQ(golden::moments({}).mean, 0.0);
     EXPECT_EQ(golden::moments(Values{7.0}).variance, 0.0);
     EXPECT_EQ(golden::moments(Values{7.0, 7.0, 7.0}).skewness, 0.0);
+    const golden::Moments equal =
+        golden::moments(Values(32, 0.1)); // the sum of 32 such doubles is rounded
+    EXPECT_EQ(equal.mean, 0.1);
+    EXPECT_EQ(equal.variance, 0.0);
+    EXPECT_EQ(equal.skewness, 0.0);
     // Squares that underflow: no 0 / 0.
     EXPECT_EQ(golden::moments(Values{0.0, 1e-200}).skewness, 0.0);
 }
