@@ -3,6 +3,7 @@
 #include "cuda/scene/contact_arrays.h"
 #include "cuda/transport/emitter_choice.h"
 #include "scenes/bounds.h"
+#include "scenes/is_emitter.h"
 #include "scenes/lights.h"
 
 #include <algorithm>
@@ -105,7 +106,7 @@ void add_emitters(SceneArrays& arrays, const scenes::Scene& scene, double radius
         else
             list.add(kind_of(light), i, 0, power(light, disc_area), light.irradiance, as_floats(light));
     });
-    arrays.has_environment = scene.environment.has_value();
+    arrays.has_environment = scenes::has_environment(scene);
     if (scene.environment)
         list.add(EmitterKind::environment, 0, 0, power_of_environment(*scene.environment, disc_area),
                  *scene.environment);

@@ -300,6 +300,25 @@ TEST(Needs, LeavingOutWhatASceneDoesNotHaveChangesNothing)
     for (const auto& need : seen) EXPECT_TRUE(need[0] && need[1]) << "some kernel is never used";
 }
 
+// scenes::requirements decides which kernel is used. Black lights require nothing.
+TEST(Needs, OfBlackLightsAreNoneAndTheyChangeNothing)
+{
+    const scenes::Scene scene = our_scene("cornell_diffuse");
+    scenes::Scene more = scene;
+    const scenes::Rgb black(0.0);
+    more.point_lights.push_back({scenes::Vec3(0.0), black});
+    more.spot_lights.push_back({scenes::Vec3(0.0), scenes::Vec3(0, 0, 1), black, 0.5, 1.0});
+    more.directional_lights.push_back({scenes::Vec3(0, 0, 1), black});
+    more.environment = black;
+    const fast::Needs needs = ContributionRecorder(scene, width, height).needs();
+    EXPECT_EQ(needs, (fast::Needs{true, false, false})); // it has spheres
+    EXPECT_EQ(ContributionRecorder(more, width, height).needs(), needs);
+    for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
+        const auto options = short_paths(integrator);
+        EXPECT_EQ(batch_of(more, options, 1, 64, 0).pixels, batch_of(scene, options, 1, 64, 0).pixels);
+    }
+}
+
 class RendererOnDevice : public parallel_test::OnDevice {};
 
 TEST_F(RendererOnDevice, GivesTheHostsPicture)
