@@ -91,8 +91,12 @@ RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())
     // 0, or a distance from far below the rounding of floats to far above it.
     const double gap =
         *rc::gen::inRange(0, 4) == 0 ? 0 : std::pow(10, -0.1 * *rc::gen::inRange(30, 120));
-    const scenes::Scene scene =
+    scenes::Scene scene =
         fast_transport_test::touching_scene(kind, *rc::gen::inRange<std::uint32_t>(0, 1u << 30), gap);
+    // Another light before it: each light must have its own contacts.
+    if (*rc::gen::arbitrary<bool>())
+        scene.point_lights.insert(scene.point_lights.begin(),
+                                  {0.5 * scene.camera->eye, scenes::Rgb(1.0)});
     const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
     check_end(scene, arrays, scene.camera->eye, arrays.place(scene.camera->eye), arrays.eye_contacts);
     for (std::size_t i = 0; i < arrays.emitters.size(); ++i) {
