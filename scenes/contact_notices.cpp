@@ -2,8 +2,8 @@
 
 #include "scenes/contacts.h"
 
+#include "scenes/for_each_light.h"
 #include "scenes/largest_component.h"
-#include "scenes/lights.h"
 #include "scenes/primitive_name.h"
 
 #include <glm/geometric.hpp>

@@ -2,13 +2,13 @@
 
 // The emitters of a scene. A black light is not an emitter, and neither is a surface without area.
 
-#include "scenes/lights.h"
+#include "scenes/for_each_light.h"
 
 namespace scenes {
 
 bool is_emitter(const Scene& scene, const Triangle& triangle);
 bool is_emitter(const Scene& scene, const Sphere& sphere);
-/// Of a light of lights.h.
+/// Of a light of for_each_light.h.
 template <class Light>
 bool is_emitter(const Light& light)
 {

@@ -11,7 +11,7 @@ namespace scenes {
 
 enum class Shape { triangle, sphere };
 enum class Bsdf { lambertian, mirror, glass };
-/// A triangle or a sphere whose material is Emission, a light of lights.h, or the environment.
+/// A triangle or a sphere whose material is Emission, a light of for_each_light.h, or the environment.
 enum class EmitterKind { triangle, sphere, point, directional, spot, environment };
 
 /// The four families of bidirectional strategies, s vertices on the light subpath and t on the eye

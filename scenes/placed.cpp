@@ -1,8 +1,8 @@
 #include "scenes/placed.h"
 
 #include "scenes/bounds.h"
+#include "scenes/for_each_light.h"
 #include "scenes/largest_component.h"
-#include "scenes/lights.h"
 #include "scenes/read_scene.h"
 
 #include <glm/common.hpp>

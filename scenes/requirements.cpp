@@ -20,8 +20,8 @@
 
 #include "scenes/requirements.h"
 
+#include "scenes/for_each_light.h"
 #include "scenes/is_emitter.h"
-#include "scenes/lights.h"
 
 #include <variant>
 #include <vector>

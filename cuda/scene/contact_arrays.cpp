@@ -3,7 +3,7 @@
 #include "cuda/transport/surface_point.h"
 #include "cuda/trees/clearance.h"
 #include "scenes/contacts.h"
-#include "scenes/lights.h"
+#include "scenes/for_each_light.h"
 
 #include <glm/geometric.hpp>
 

@@ -4,8 +4,8 @@
 #include "cuda/transport/surface_point.h"
 #include "scenes/bounds.h"
 #include "scenes/contacts.h"
+#include "scenes/for_each_light.h"
 #include "scenes/largest_component.h"
-#include "scenes/lights.h"
 #include "scenes/primitive_name.h"
 
 #include <glm/common.hpp>

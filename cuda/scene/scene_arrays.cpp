@@ -3,8 +3,8 @@
 #include "cuda/scene/contact_arrays.h"
 #include "cuda/transport/emitter_choice.h"
 #include "scenes/bounds.h"
+#include "scenes/for_each_light.h"
 #include "scenes/is_emitter.h"
-#include "scenes/lights.h"
 
 #include <algorithm>
 #include <cmath>

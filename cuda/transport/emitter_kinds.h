@@ -4,8 +4,8 @@
 //
 // An emitter is a surface (a triangle or a sphere), a source (a point without extent) or at infinity.
 // The code for each of these three classes is in emitter.h and emission.h. To add a kind of light: give
-// it data, a name and an enumerator in scenes/ (scene.h, lights.h, kinds.h and the reader). Write here
-// its conversion to floats (as_floats, power), and add it to the functions of its class below
+// it data, a name and an enumerator in scenes/ (scene.h, for_each_light.h, kinds.h and the reader).
+// Write here its conversion to floats (as_floats, power), and add it to the functions of its class below
 // (docs/extending.md).
 
 #include "cuda/transport/needs.h"

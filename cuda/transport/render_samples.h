@@ -3,7 +3,7 @@
 // The kernel: one thread computes one whole sample of one pixel.
 
 #include "cuda/transport/bdpt.h"
-#include "cuda/transport/film.h"
+#include "cuda/transport/film_sink.h"
 
 namespace fast {
 

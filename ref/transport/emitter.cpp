@@ -4,7 +4,7 @@
 #include "ref/trees/scaled_length.h"
 #include "scenes/bounds.h"
 #include "scenes/contacts.h"
-#include "scenes/lights.h"
+#include "scenes/for_each_light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 // An emitter is a surface (a triangle or a sphere), a source (a point without extent) or at infinity.
 // The code for each of these three classes is in emitter.cpp and emission.cpp. A kind of source has four
 // functions here, a kind at infinity three. To add a kind of light: give it data, a name and an
-// enumerator in scenes/ (scene.h, lights.h, kinds.h and the reader), write its functions here, and list
-// it in visit_source or visit_distant (docs/extending.md).
+// enumerator in scenes/ (scene.h, for_each_light.h, kinds.h and the reader), write its functions here,
+// and list it in visit_source or visit_distant (docs/extending.md).
 
 #include "ref/transport/sampling.h"
 #include "scenes/kinds.h"

@@ -1,7 +1,7 @@
 // Contributions that are not finite never reach a film, and their number does not depend on threads.
 
 #include "cuda/parallel/threaded_executor.h"
-#include "cuda/transport/film.h"
+#include "cuda/transport/film_sink.h"
 #include "tests/cuda/parallel/interleaved_executor.h"
 
 #include <gtest/gtest.h>

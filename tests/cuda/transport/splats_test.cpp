@@ -1,7 +1,7 @@
 // Splats from many threads at once: none is lost, in any schedule.
 
 #include "cuda/parallel/threaded_executor.h"
-#include "cuda/transport/film.h"
+#include "cuda/transport/film_sink.h"
 #include "tests/cuda/parallel/interleaved_executor.h"
 
 #include <gtest/gtest.h>
