@@ -48,6 +48,11 @@ void add_golden_options(CLI::App& command, GoldenCommand& options)
 
 void check(const GoldenCommand& options)
 {
+    for (const std::string& scene : options.scenes)
+        if (scene == "-")
+            throw std::invalid_argument(
+                "golden -: expected the name of a scene file, because the golden is "
+                "named after it and made again from it");
     expect_whole_batches(options.samples, options.batch_size);
     if (options.samples / options.batch_size <= options.pilot_batches)
         throw std::invalid_argument("-s " + std::to_string(options.samples) + ": the pilot takes " +

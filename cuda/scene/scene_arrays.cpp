@@ -1,6 +1,7 @@
 #include "cuda/scene/scene_arrays.h"
 
-#include "cuda/scene/contact_arrays.h"
+#include "cuda/scene/coincident_arrays.h"
+#include "cuda/scene/end_contacts.h"
 #include "cuda/transport/emitter_choice.h"
 #include "scenes/bounds.h"
 #include "scenes/for_each_light.h"
@@ -150,7 +151,9 @@ SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
                 std::max(arrays.largest_survival, arrays.materials[material].survival);
     }
     add_emitters(arrays, scene, radius);
-    add_contacts(arrays, scene);
+    add_coincident(arrays, scene);
+    add_clearances(arrays);
+    add_end_contacts(arrays, scene);
     return arrays;
 }
 

@@ -242,7 +242,8 @@ TEST_F(GoldenCommand, AbsurdOptionsAreErrors)
           {golden("16"), "pilot"},
           {golden("63"), "multiple"},
           {golden("64", {"--list", "--verify", "1"}), "--list"},
-          {golden("64", {"--size", "0x3"}), "--size"}}) {
+          {golden("64", {"--size", "0x3"}), "--size"},
+          {golden("64", {"-"}), "golden -: expected the name of a scene file"}}) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.status, 2);
         EXPECT_NE(outcome.err.find(complaint), std::string::npos) << outcome.err;

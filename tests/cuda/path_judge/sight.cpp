@@ -14,7 +14,7 @@ using fast_trees_test::HitBounds;
 
 double end_slack(const ref::World& world, const ref::Vec3& end)
 {
-    // contact_arrays.cpp: 30 u D for the surface, and clearance.h: 24 u D for the longest segment.
+    // coincident_arrays.h: 30 u D for the surface, and clearance.h: 24 u D for the longest segment.
     const double clearance = 54 * roundoff * world.geometry.diagonal();
     if (scenes::surfaces_near(world.scene, end, clearance).empty()) return 0;
     return std::sqrt(3.0) * clearance; // along three planes at right angles

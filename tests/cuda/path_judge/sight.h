@@ -21,7 +21,7 @@ struct LineOfSight {
 
 /// A bound on the distance by which the fast path may have moved an end that is not on a surface (the
 /// eye or a light): 0, unless the end is on a surface or too near one for a float to decide the side
-/// (cuda/scene/contact_arrays.cpp).
+/// (cuda/scene/end_contacts.cpp).
 double end_slack(const ref::World& world, const ref::Vec3& end);
 
 /// The fast path has the visibility `seen`, and the reference the opposite. Throws Undecided if

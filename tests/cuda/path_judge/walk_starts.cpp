@@ -118,7 +118,7 @@ void require_drawn(const ref::World& world, const fast::SurfacePoint& point,
 }
 
 /// Whether another surface is so close to the emitter's point, and beside it, that the fast path may
-/// count the point as covered (contact_arrays.cpp); the reference lets light into the gap.
+/// count the point as covered (coincident_arrays.cpp); the reference lets light into the gap.
 bool has_near_surface(const ref::World& world, const ref::SurfacePoint& point)
 {
     const double near = 54 * roundoff * world.geometry.diagonal();
@@ -216,7 +216,7 @@ FollowedWalk followed_eye_walk(const Setting& setting, const RecordedSample& sam
     const ref::Camera& camera = setting.world.camera;
     const auto width = static_cast<std::uint32_t>(camera.width());
     const ref::Uniforms u = float_uniforms(setting.id, ref::Event::camera);
-    // The fast path's start. contact_arrays_test.cpp tests that it is on the right side of every
+    // The fast path's start. end_contacts_test.cpp tests that it is on the right side of every
     // surface.
     const ref::Ray ray = camera.ray({setting.id.pixel % width + u[0], setting.id.pixel / width + u[1]});
     const scenes::Camera& source = setting.world.scene.camera.value();
