@@ -1,4 +1,4 @@
-// `plumbline bvh`: options that would change nothing, and how long it takes.
+// `plumbline bvh`: options without effect are refused, and the precision of measured times is reported.
 
 #include "tests/cli/run_program.h"
 
@@ -80,7 +80,8 @@ TEST(Bvh, TakesTheSameOptionsWhereTheyHaveAnEffect)
     }
 }
 
-// The scene of one triangle: no second is spent on precision that is there after a few repetitions.
+// A scene of one triangle. The required precision is reached after a few repetitions, without measuring
+// for a second.
 TEST(Bvh, TellsHowPreciselyItTimedRays)
 {
     const TemporaryFolder folder;
@@ -104,7 +105,7 @@ TEST(Bvh, TellsHowPreciselyItTimedRays)
     for (const auto& builder : report["builders"]) {
         const auto error = builder["camera_relative_standard_error"].get<double>();
         EXPECT_GE(error, 0);
-        EXPECT_LT(error, 0.5); // 2%, unless the machine is too busy to tell within a second
+        EXPECT_LT(error, 0.5); // 2%, unless one second is too short on a busy machine
     }
 }
 

@@ -1,4 +1,4 @@
-// `plumbline compare`: the verdict, the exit status, and what cannot be compared.
+// `plumbline compare`: the verdict, the exit status, and pictures that cannot be compared.
 
 #include "images/exr.h"
 #include "images/pfm.h"
@@ -13,8 +13,8 @@ namespace {
 
 using namespace cli_test;
 
-/// A golden of a scene that is lit from one direction: the noise is that of the plane's edge alone, so
-/// that few samples decide.
+/// A golden of a scene that is lit from one direction. Only the edge of the plane has noise, so few
+/// samples are enough for a verdict.
 class CompareCommand : public testing::Test {
 protected:
     static void SetUpTestSuite()
@@ -48,7 +48,7 @@ protected:
     {
         return run(Arguments{"compare"} + candidates + Arguments{golden_file} + more);
     }
-    /// The candidate's mean, altered, as another renderer would give it.
+    /// The candidate's mean times `factor`, in a file without metadata, as from another renderer.
     [[nodiscard]] std::string altered(double factor) const
     {
         images::Image image = images::read_exr(candidate).mean;
@@ -153,7 +153,7 @@ TEST_F(CompareCommand, PicturesThatAreNotIndependentAreRefused)
     render(candidate, {"--integrator", "bdpt", "--seed", "3"});
     const std::string other = (folder / "other.exr").string();
     render(other, {"--integrator", "bdpt", "--seed", "4"});
-    const std::string copy = altered(1.0); // says nothing about itself
+    const std::string copy = altered(1.0); // has no metadata
     const std::string again = (folder / "again.pfm").string();
     std::filesystem::copy_file(copy, again);
     for (const auto& [files, complaint] :
@@ -205,7 +205,8 @@ TEST_F(CompareCommand, OddPixelsAreNamedBeforeAllStatistics)
 
 TEST_F(CompareCommand, PathsOfAnotherLengthAreNamed)
 {
-    // What says so itself is refused; of what does not, the golden's length is told.
+    // A picture whose metadata states another path length is refused. For a picture without metadata,
+    // the program states the golden's path length.
     ASSERT_EQ(run({"render", scene_file("directional_over_plane"), "-o", candidate, "--size", "16x16",
                    "--max-edges", "2"})
                   .status,
@@ -224,7 +225,7 @@ TEST_F(CompareCommand, PathsOfAnotherLengthAreNamed)
 
 TEST_F(CompareCommand, ALayerIsChosenByName)
 {
-    // The picture as a layer beside another one, as renderers write that have several.
+    // The picture is one of two layers, as in the files of renderers that write several layers.
     render(candidate, {"--integrator", "bdpt"});
     const images::Image image = images::read_exr(candidate).mean;
     images::Film darker(image.width, image.height);

@@ -1,4 +1,5 @@
-// Scenes at the ends of the range of doubles, as a person renders them: the right picture or a word.
+// Scenes at the ends of the range of doubles, rendered with the program. The picture is right, or a
+// message states the problem.
 
 #include "tests/cli/run_program.h"
 
@@ -15,7 +16,7 @@ using namespace cli_test;
 
 using Mean = std::array<double, 3>;
 
-/// A file of the repository with all its nodes in one more node, which begins with `transform`.
+/// A copy of a scene of the repository. A new node that begins with `transform` contains all its nodes.
 std::filesystem::path wrapped(const TemporaryFolder& folder, const std::string& scene,
                               const std::string& transform)
 {
@@ -66,7 +67,7 @@ TEST(Extremes, ASceneScaledByAPowerOfTwoHasTheSamePictureToTheBit)
         }
 }
 
-// Rounding differs, so a path in a billion may go another way, and all other digits agree to 1e-10.
+// Rounding differs, so one path in a billion may take another direction. The means agree to 1e-10.
 TEST(Extremes, ASceneOfAnySizeHasTheSamePicture)
 {
     const TemporaryFolder folder;
@@ -83,7 +84,7 @@ TEST(Extremes, ASceneTooFarAwayToBeHeldIsRefused)
     const TemporaryFolder folder;
     const Arguments how = {"--integrator", "bdpt"};
     const Mean right = mean_of(render(scene_file("cornell_glass"), how));
-    // At 2^20 diagonals a coordinate is rounded to 1e-10 of the scene.
+    // At a distance of 2^20 scene diagonals, a coordinate is rounded to 1e-10 of the scene's size.
     const Mean moved =
         mean_of(render(wrapped(folder, "cornell_glass", "<translate>4e6 -4e6 4e6</translate>"), how));
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(moved[i] / right[i], 1.0, 1e-3);
@@ -112,7 +113,7 @@ TEST(Extremes, LightThatNoPictureCanHoldIsRefused)
     }
 }
 
-// The light in glass is never found by path tracing: the picture is black, and that is said.
+// Path tracing never finds the light in the glass. The picture is black, and a warning is printed.
 TEST(Extremes, ABlackPictureOfASceneWithEmittersIsSaid)
 {
     const Outcome path = render(scene_file("point_in_glass"), {"--integrator", "path"});

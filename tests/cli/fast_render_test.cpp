@@ -1,4 +1,4 @@
-// `plumbline render --device host|cuda`: the same options, files and manners as the reference.
+// `plumbline render --device host|cuda`: the same options, files and behaviour as the reference.
 
 #include "cuda/launch/device.h"
 #include "images/exr.h"
@@ -98,7 +98,7 @@ TEST_F(FastRender, WritesLayersAndTheirSheet)
         for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += layer.pixels[i];
     EXPECT_TRUE(picture.layers.contains("s2t2"));
     for (std::size_t i = 0; i < sum.pixels.size(); ++i)
-        for (int channel = 0; channel < 3; ++channel) // files hold floats; sums of floats err by less
+        for (int channel = 0; channel < 3; ++channel) // files hold floats; the error is smaller
             EXPECT_NEAR(sum.pixels[i][channel], picture.mean.pixels[i][channel],
                         1e-4 * picture.mean.pixels[i][channel]);
     EXPECT_TRUE(std::filesystem::exists(sheet));

@@ -1,4 +1,4 @@
-// `plumbline golden`: made, resumed, found again, verified, listed.
+// `plumbline golden`: goldens are made, resumed, found again, verified and listed.
 
 #include "golden/golden.h"
 #include "tests/cli/run_program.h"
@@ -76,7 +76,7 @@ TEST_F(GoldenCommand, NeverReplacesAnotherGolden)
         EXPECT_NE(outcome.err.find(complaint), std::string::npos) << complaint << '\n' << outcome.err;
         EXPECT_NE(outcome.err.find("remove the file"), std::string::npos) << outcome.err;
     }
-    // All differences at once.
+    // All differences are reported at once.
     Arguments two = with("--size", "24x8");
     two = two + Arguments{"--max-edges", "3"};
     const std::string both = run(two).err;
@@ -185,7 +185,7 @@ TEST_F(GoldenCommand, VerifiesItsOwnBits)
 
 TEST_F(GoldenCommand, VerifyFindsABatchThatWasAltered)
 {
-    // What says of itself that it was rendered like the others, and is dimmer by 1%.
+    // One batch is 1% darker. The metadata is that of the original golden.
     ASSERT_EQ(run(golden()).status, 0);
     const images::Metadata metadata = golden::read_golden(file).metadata;
     const std::string batches = (folder / "batches.exr").string();

@@ -1,4 +1,5 @@
-// Ctrl-C and SIGTERM keep what is done, and going on from there gives the picture that would have been.
+// After Ctrl-C or SIGTERM the finished batches are kept. Resuming gives the same picture as a render
+// without interruption.
 
 #include "images/exr.h"
 #include "tests/cli/run_program.h"
@@ -20,7 +21,7 @@ protected:
     {
         return {"render", scene_file("cornell_glass"), "-o", output, "--size", "32x24", "-s", samples};
     }
-    /// Sends `signal` to a render that would take days, as soon as it has kept something.
+    /// Sends `signal` to a render that would take days, as soon as it has written a picture.
     Outcome interrupted(int signal, const Arguments& more = {})
     {
         Process process(render(out, "2147483648") + Arguments{"--watch", "0.001"} + more);
@@ -67,7 +68,7 @@ TEST_P(Interrupt, ResumedGivesThePictureOfAnUninterruptedRender)
 {
     ASSERT_EQ(interrupted(GetParam()).status, 130);
     expect_as_if_never_interrupted(samples_held() + 8);
-    // And once more, with other threads, from a picture that is complete.
+    // Once more, from a picture that is complete.
     expect_as_if_never_interrupted(samples_held() + 12);
 }
 
@@ -85,7 +86,7 @@ TEST_P(Interrupt, AResumedRenderCanBeInterruptedAgain)
 
 TEST_P(Interrupt, LeavesNoFileBeforeTheFirstBatchIsDone)
 {
-    // A batch of some minutes, in tiles of some hundredths of a second.
+    // The batch takes some minutes, each of its tiles some hundredths of a second.
     Process process({"render", scene_file("point_over_plane"), "-o", out, "--size", "1024x1024",
                      "--batch", "256", "-s", "256"});
     ASSERT_TRUE(eventually([&] { return process.catches(GetParam()); }));
@@ -98,14 +99,15 @@ TEST_P(Interrupt, LeavesNoFileBeforeTheFirstBatchIsDone)
     EXPECT_EQ(folder.entries(), 0u);
 }
 
-// A second signal means it: the end, without a picture, and by the signal, so that a shell's loop ends.
+// A second signal ends the process at once, without a picture. The signal itself ends the process,
+// so that a loop of a shell ends too.
 TEST_P(Interrupt, TwiceEndsAtOnce)
 {
-    // A tile of 2^20 samples per pixel takes minutes, and the first signal waits for its end.
+    // A tile of 2^20 samples per pixel takes minutes. After the first signal the tile is finished.
     Process process({"render", scene_file("point_over_plane"), "-o", out, "--size", "16x16", "--batch",
                      "1048576", "-s", "1048576", "-t", "1"});
     ASSERT_TRUE(eventually([&] { return process.catches(GetParam()); }));
-    // Not before the tile has begun: a fifth of a second of work.
+    // Wait until the tile has begun: a fifth of a second of CPU time.
     const long long before = process.used();
     ASSERT_TRUE(eventually([&] { return process.used() >= before + sysconf(_SC_CLK_TCK) / 5; }));
     process.send(GetParam());
@@ -115,7 +117,7 @@ TEST_P(Interrupt, TwiceEndsAtOnce)
     EXPECT_EQ(folder.entries(), 0u);
 }
 
-// With --watch all files grow, also those of the strategies.
+// With --watch all files are rewritten while rendering, also those of the strategies.
 TEST_F(Interrupt, LayersAndSheetAreRewrittenWhileRendering)
 {
     const std::string layers = (folder / "layers.exr").string();

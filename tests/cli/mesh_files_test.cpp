@@ -1,4 +1,4 @@
-// `plumbline bvh` on files of meshes: the same cube in each format, and what is damaged.
+// `plumbline bvh` on mesh files: the same box in each format, and damaged files.
 
 #include "scenes/read_mesh.h"
 #include "scenes/read_scene.h"
@@ -18,7 +18,7 @@ namespace {
 
 using namespace cli_test;
 
-// A build without Assimp reads no meshes: this is the file that such a build links.
+// A build without Assimp reads no meshes. This test links the source file of such a build.
 TEST(MeshFilesNone, ABuildWithoutAssimpSaysSo)
 {
     try {
@@ -30,14 +30,16 @@ TEST(MeshFilesNone, ABuildWithoutAssimpSaysSo)
     }
 }
 
-// A box of 1 x 2 x 4 with one corner at the origin. Four corners a side, seen from outside.
+// A box of 1 x 2 x 4 with one corner at the origin. Each side has four corners, counter-clockwise as
+// seen from outside.
 constexpr std::array<std::array<float, 3>, 8> corners = {
     {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 4}, {1, 0, 4}, {1, 2, 4}, {0, 2, 4}}};
 constexpr std::array<std::array<std::uint16_t, 4>, 6> sides = {
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 constexpr std::size_t triangles = 12;
 
-/// Calls visit(a, b, c) with the corners of each triangle, as a convex side is cut: around its first.
+/// Calls visit(a, b, c) with the corners of each triangle. Each side is a triangle fan around its first
+/// corner.
 template <typename Visit>
 void for_each_triangle(Visit visit)
 {
@@ -71,7 +73,7 @@ std::string all_sides(const std::string& before, int first)
     return text;
 }
 
-/// The bytes of `value`, lowest first.
+/// The bytes of `value` in little-endian order.
 template <typename Value>
 std::string raw(Value value)
 {
@@ -147,7 +149,7 @@ std::string gltf_buffer()
     return bytes;
 }
 
-/// The node has the transform `node`, members of JSON.
+/// `node`: the transform of the node, as JSON members.
 std::string gltf_text(const std::string& uri, const std::string& node = "")
 {
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0)" + node +
@@ -159,7 +161,7 @@ std::string gltf_text(const std::string& uri, const std::string& node = "")
            R"({"bufferView":1,"componentType":5123,"count":36,"type":"SCALAR"}]})";
 }
 
-std::string base64(const std::string& bytes) // of a length that 3 divides
+std::string base64(const std::string& bytes) // the length is a multiple of 3
 {
     const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
@@ -205,7 +207,7 @@ std::string collada()
            "</library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
 }
 
-constexpr double tolerance = 1e-12; // coordinates are whole numbers: only the costs' sums are rounded
+constexpr double tolerance = 1e-12; // coordinates are integers; only the sums of costs are rounded
 
 struct Cost {
     int primitives;
@@ -263,7 +265,7 @@ TEST_F(MeshFiles, OfEachFormatHaveTheTreesOfTheSameMeshInCollada)
     }
 }
 
-// Turned by 45 degrees about z the boxes of the tree are larger than what they hold.
+// After a rotation by 45 degrees about z, the boxes of the tree are larger than their contents.
 TEST_F(MeshFiles, HaveTheTransformsOfTheirNodes)
 {
     std::string turned = collada();
@@ -271,7 +273,8 @@ TEST_F(MeshFiles, HaveTheTransformsOfTheirNodes)
     turned.insert(turned.find(node) + node.size(), "<rotate>0 0 1 45</rotate>");
     const Cost right = cost("turned.dae", turned);
     EXPECT_GT(std::abs(right.sah - cost("box.dae", collada()).sah), 0.01);
-    // sin and cos of 22.5 degrees; the matrix is in floats: 2^-24 times a few operations.
+    // The rotation is given by sin and cos of 22.5 degrees. The matrix holds floats, so the error is
+    // 2^-24 times a few operations.
     EXPECT_NEAR(cost("turned.gltf", gltf(R"(,"rotation":[0,0,0.38268343236,0.92387953251])")).sah,
                 right.sah, 1e-5);
 }
@@ -285,7 +288,8 @@ TEST_F(MeshFiles, KeepTrianglesWithoutAreaAndLeaveLinesOutWithANotice)
     EXPECT_NE(outcome.err.find("1 line(s) and point(s): ignored"), std::string::npos) << outcome.err;
 }
 
-// Cut at any byte a file is an error, or it lacks nothing but the last words that nothing depends on.
+// A file that is cut at any byte is an error, unless only the last words are missing and nothing depends
+// on them.
 TEST_F(MeshFiles, CutShortAreErrors)
 {
     const std::pair<const char*, std::string> files[] = {
@@ -308,7 +312,7 @@ TEST_F(MeshFiles, DamagedAreErrorsThatNameTheFile)
     expect_refused("a.obj", "this is no mesh, but a text of some length\nof two lines\n");
     expect_refused("a.obj", all_corners("v ", "\n"));                    // no faces
     expect_refused("a.obj", replaced(obj(), "f 1", "f 9"));              // no such vertex
-    expect_refused("a.obj", replaced(obj(), "v 1", "v 1e39"), "finite"); // as a float
+    expect_refused("a.obj", replaced(obj(), "v 1", "v 1e39"), "finite"); // infinite as a float
     expect_refused("a.ply", replaced(ply(), "1 0 0", "nan 0 0"), "finite");
     expect_refused("a.ply", replaced(ply(), "1 0 0", "one 0 0"), "element 2 of 8 (\"vertex\")");
     expect_refused("a.ply", replaced(ply(), "vertex 8", "vertex 4000000000"), "not whole");

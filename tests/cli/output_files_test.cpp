@@ -1,5 +1,5 @@
-// Two outputs of one name, however it is spelt, are an error before any work is done; so is an output
-// that is an input.
+// Two outputs to the same file are an error before any work is done, even if the names are spelt
+// differently. An output that is also an input is an error too.
 
 #include "tests/cli/run_program.h"
 
@@ -30,7 +30,7 @@ protected:
         return all;
     }
 
-    /// Exit status 2, one line that holds all of `names`, and every file as it was.
+    /// Expects exit status 2, one line that contains all of `names`, and no change of any file.
     void expect_refused(const Arguments& arguments, const std::vector<std::string>& names) const
     {
         const auto before = contents();
@@ -119,7 +119,7 @@ TEST_F(OutputFiles, NeverOneGoldenOfTwoScenes)
 TEST_F(OutputFiles, DifferentFilesAreWrittenTogether)
 {
     const std::string layers = (folder / "b.exr").string();
-    const std::string sheet = (folder / "a.png").string(); // the same but for the ending
+    const std::string sheet = (folder / "a.png").string(); // differs only in the ending
     const Outcome outcome = run(render({"--strategies", layers, "--strategies-picture", sheet}));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     for (const std::string& file : {out, layers, sheet}) EXPECT_TRUE(fs::exists(file)) << file;

@@ -1,4 +1,4 @@
-// `plumbline render` where all goes well: what it prints, what it writes, what changes the picture.
+// `plumbline render` without errors: its output, its files, and the options that change the picture.
 
 #include "images/exr.h"
 #include "images/pfm.h"
@@ -53,7 +53,7 @@ TEST(Help, FitsOneScreenAndShowsAnExample)
               std::string::npos);
 }
 
-// What the help shows as an example must work as it stands there.
+// The example in the help text must work without changes.
 TEST(Help, ItsExampleNamesASceneAndOptionsThatThereAre)
 {
     const std::string help = run({"render", "--help"}).out;
@@ -151,7 +151,7 @@ TEST(Render, AnyCaseOfAnEndingWillDo)
     EXPECT_EQ(images::read_exr(folder / "B.EXR").metadata.at("samples"), "12");
 }
 
-// Without --batch: the largest of 4, 3, 2 and 1 that divides the samples.
+// Without --batch, the batch size is the largest of 4, 3, 2 and 1 that divides the number of samples.
 TEST(Render, AnyNumberOfSamplesIsWholeBatches)
 {
     const TemporaryFolder folder;
@@ -171,7 +171,7 @@ TEST(Render, AnyNumberOfSamplesIsWholeBatches)
         EXPECT_EQ(std::to_string(json.at("batch_size").get<int>()), batch) << samples;
         EXPECT_EQ(std::to_string(json.at("samples_per_pixel").get<int>()), samples);
     }
-    // A batch that is asked for is that, also where it is the default.
+    // A given batch size is not changed, even if it is the default.
     EXPECT_EQ(
         run(render("point_over_plane", folder / "b.exr", {"--batch", "4"}, {"--size", "6x4", "-s", "6"}))
             .status,
@@ -191,14 +191,15 @@ TEST(Render, CountsMayHaveAnExponent)
     EXPECT_EQ(samples("1e3"), "1000");
     EXPECT_EQ(samples("1.5E+2"), "150");
     EXPECT_EQ(samples("2.50e2"), "250");
-    // In every command.
+    // Exponents are accepted in every command.
     const Outcome made = run({"golden", scene_file("point_over_plane"), "--folder",
                               folder.path().string(), "--size", "6x4", "--pilot", "4", "-s", "1.6e2"});
     EXPECT_EQ(made.status, 0) << made.err;
     EXPECT_EQ(images::read_exr(folder / "point_over_plane.exr").metadata.at("samples"), "160");
 }
 
-// It asks for what the reference does anyway, and so is no option without effect.
+// The reference is always deterministic. So the option is fulfilled and is not refused as one without
+// effect.
 TEST(Render, TheReferenceFulfilsDeterministic)
 {
     const TemporaryFolder folder;
@@ -234,13 +235,12 @@ TEST(Render, JsonIsOneObjectWithWhatAScriptNeeds)
     const images::Image mean = images::read_exr(folder / "a.exr").film->mean();
     glm::dvec3 sum(0.0);
     for (const auto& pixel : mean.pixels) sum += pixel;
-    for (int i = 0; i < 3; ++i) // summed in the same order: equal but for the digits printed
+    for (int i = 0; i < 3; ++i) // the same order of summation; only the printed digits differ
         EXPECT_NEAR(json.at("mean_rgb")[static_cast<std::size_t>(i)].get<double>(), sum[i] / (24 * 16),
                     1e-12);
 }
 
-/// Per channel the standard deviation of the whole picture's mean over the batches that are kept in
-/// `file`.
+/// The standard deviation, per channel, of the mean of the whole picture over the batches in `file`.
 std::array<double, 3> scatter_of_batches(const std::filesystem::path& file)
 {
     std::vector<glm::dvec3> means;
@@ -259,8 +259,8 @@ std::array<double, 3> scatter_of_batches(const std::filesystem::path& file)
     return deviation;
 }
 
-// Pixels vary together, since light walks splat on all of them: what counts is how whole batches
-// scatter.
+// The pixels are correlated, because light walks splat on all of them. So the standard error is computed
+// from the scatter of whole batches.
 TEST(Render, JsonSaysHowExactTheMeanIs)
 {
     const TemporaryFolder folder;
@@ -273,7 +273,7 @@ TEST(Render, JsonSaysHowExactTheMeanIs)
         ASSERT_EQ(outcome.status, 0) << outcome.err;
         const auto error = nlohmann::json::parse(outcome.out).at("mean_rgb_standard_error");
         ASSERT_EQ(error.size(), 3u);
-        const auto deviation = scatter_of_batches(file); // of floats: sums of 384 of them
+        const auto deviation = scatter_of_batches(file); // from sums of 384 floats
         for (std::size_t c = 0; c < 3; ++c)
             EXPECT_NEAR(error[c].get<double>() / (deviation[c] / std::sqrt(10.0)), 1.0, 1e-4) << c;
     }
@@ -444,7 +444,7 @@ TEST(Progress, IsNotShownWhenQuiet)
     const TemporaryFolder folder;
     Process process(render("point_over_plane", folder / "a.exr", {"-q", "--watch", "0.1"}, endless),
                     {.terminal = true});
-    // After several rounds of what would have been updates, twice in a row.
+    // Wait for the first picture, then for the time of several updates of the progress bar.
     EXPECT_TRUE(eventually([&] { return std::filesystem::exists(folder / "a.exr"); }));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     EXPECT_EQ(process.printed(), "");

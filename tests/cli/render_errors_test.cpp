@@ -1,4 +1,4 @@
-// Bad input and bad luck: one line that says what is wrong, exit status 2, and no file.
+// Wrong input and failed writes: one line that states the error, exit status 2, and no file.
 
 #include "images/exr.h"
 #include "tests/cli/run_program.h"
@@ -12,7 +12,7 @@ namespace {
 
 using namespace cli_test;
 
-/// One line for a person, beginning with the program's name and holding `what`.
+/// Expects exit status 2 and one readable line that begins with the program's name and contains `what`.
 void expect_complaint(const Outcome& outcome, const std::string& what)
 {
     EXPECT_EQ(outcome.status, 2);
@@ -100,7 +100,7 @@ const std::vector<Mistake> mistakes = {
     {"BuilderOfTheFastPath",
      {"render", "SCENE", "-o", "OUT", "--device", "host", "--builder", "morton30"},
      "--builder morton30 has no effect with --device host"},
-    {"DefaultBuilderOfTheFastPath", // given all the same
+    {"DefaultBuilderOfTheFastPath", // given although it is the default
      {"render", "SCENE", "-o", "OUT", "--device", "host", "--builder", "sah-leaf"},
      "--builder sah-leaf has no effect with --device host"},
     {"HeuristicOfPaths",
@@ -209,7 +209,7 @@ TEST_F(RenderFailures, AFolderInThePlaceOfTheOutputStays)
     EXPECT_EQ(folder.entries(), 1u);
 }
 
-// A few hundred bytes fit: enough for the header of any format and for none of the picture.
+// A file may have 300 bytes: enough for the header of each format, too few for the picture.
 TEST_F(RenderFailures, OnAFullDiskNothingIsLeft)
 {
     for (const char* name : {"out.exr", "out.pfm", "out.png"}) {
@@ -229,7 +229,7 @@ TEST_F(RenderFailures, OnAFullDiskAnEarlierPictureStays)
     EXPECT_EQ(folder.entries(), 1u);
 }
 
-/// A picture of 8 samples lies there already, and must stay as it is.
+/// A picture of 8 samples exists already and must not change.
 class Resume : public RenderFailures {
 protected:
     Resume()

@@ -1,4 +1,4 @@
-// When a measurement of time is precise enough, by a clock of the test's own.
+// The number of repetitions of a time measurement, tested with a simulated clock.
 
 #include "cli/repetitions.h"
 
@@ -13,7 +13,8 @@ using cli::Precision;
 using cli::repeat_until_precise;
 using cli::Repetitions;
 
-/// Work whose first call takes `first` seconds and whose later calls take `later` in turns.
+/// Simulated work. The first call takes `first` seconds, the later calls take the times of `later` in
+/// turn.
 struct Clocked {
     std::vector<double> later;
     double first = 1;
@@ -35,7 +36,7 @@ const Precision two_percent{.relative = 0.02, .fewest = 5, .most_seconds = 1000,
 
 TEST(Repetitions, OfWorkThatTakesTheSameEachTimeAreTheFewest)
 {
-    Clocked work{.later = {2}, .first = 7}; // caches are cold in the first, which does not count
+    Clocked work{.later = {2}, .first = 7}; // the first does not count: caches are cold
     const Repetitions measured = work.measure(two_percent);
     EXPECT_EQ(measured.count, 5);
     EXPECT_EQ(work.calls, 6u);
@@ -43,9 +44,9 @@ TEST(Repetitions, OfWorkThatTakesTheSameEachTimeAreTheFewest)
     EXPECT_EQ(measured.relative_standard_error, 0);
 }
 
-// In turns 0.9 and 1.1: after n, an even number, the mean is 1 and the standard error is
-// 0.1 / sqrt(n - 1). It is below 0.02 from n = 27 on, odd: there the mean is 1 - 0.1/27, and the sum of
-// squares about it 27 * 0.01 (1 - 1/27^2).
+// The times are 0.9 and 1.1 in turn. For even n, the mean is 1 and the standard error is
+// 0.1 / sqrt(n - 1). The standard error is below 0.02 from n = 27 on. This n is odd: the mean is
+// 1 - 0.1/27, and the sum of squared deviations from the mean is 27 * 0.01 (1 - 1/27^2).
 TEST(Repetitions, GoOnUntilTheMeanIsAsPreciseAsAskedFor)
 {
     Clocked work{.later = {0.9, 1.1}};
@@ -74,7 +75,7 @@ TEST(Repetitions, AreAtLeastTwoHoweverLongTheyTake)
     EXPECT_EQ(work.measure(two_percent).count, 2);
 }
 
-// 1 ms is below `shortest`: 512 of them are 0.512 s.
+// A call takes 1/1024 s, which is below `shortest`. 512 calls take 0.5 s.
 TEST(Repetitions, OfShortWorkDoItSeveralTimes)
 {
     Clocked work{.later = {1.0 / 1024}, .first = 1.0 / 1024};

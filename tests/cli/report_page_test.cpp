@@ -1,4 +1,4 @@
-// The report in a real browser: it opens without errors and its controls move what they should.
+// The report in a real browser: it opens without errors, and its controls work.
 
 #include "tests/cli/run_program.h"
 
@@ -11,7 +11,8 @@ namespace {
 
 using namespace cli_test;
 
-/// Runs in the page after its own script; what it finds replaces the page, for the test to read.
+/// Runs in the page after the page's own script. The results are written to the title of the page, which
+/// the test reads.
 const std::string probe = R"(<script>
 const found = {};
 const move = (id, value) => {
@@ -109,7 +110,7 @@ TEST(ReportPage, OpensInABrowserAndItsControlsMove)
     EXPECT_EQ(found.at("brighter"), true);
     EXPECT_EQ(found.at("tile_maps"), 3);
     EXPECT_EQ(found.at("bars"), 20);
-    EXPECT_EQ(found.at("rows"), 13); // the head and twelve
+    EXPECT_EQ(found.at("rows"), 13); // the header row and twelve findings
     EXPECT_GT(found.at("all_rows").get<int>(), 100);
     EXPECT_EQ(found.at("probe").get<std::string>().rfind("(0, 0)", 0), 0u) << found.at("probe");
 }

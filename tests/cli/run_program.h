@@ -1,7 +1,7 @@
 #pragma once
 
-// Runs the program as a person or a script does: a process of its own, with what it prints and how it
-// ends.
+// Runs the program in a process of its own, as a user or a script does, and returns its output and exit
+// status.
 
 #include "tests/images/temporary_folder.h"
 
@@ -48,13 +48,14 @@ struct Outcome {
 
 /// How the process is started.
 struct Surroundings {
-    bool terminal = false; // stdout and stderr are a terminal: both are found in Outcome::out
-    std::optional<rlim_t> largest_file{}; // bytes: as if the disk were full beyond
+    bool terminal = false;                // stdout and stderr are a terminal; Outcome::out holds both
+    std::optional<rlim_t> largest_file{}; // bytes; larger files fail as on a full disk
     enum class Output { file, closed_pipe, full_disk, closed } output = Output::file; // stdout
     std::string program = PLUMBLINE_PROGRAM;
 };
 
-/// Waits for `condition` for as long as a slow machine may take. Whether it came true.
+/// Waits until `condition` is true, for about 30 seconds, enough for a slow machine. Returns whether it
+/// became true.
 template <class Condition>
 bool eventually(Condition condition)
 {
@@ -107,7 +108,7 @@ public:
 
     void send(int signal) const { kill(pid_, signal); }
 
-    /// Whether the process has made its own arrangements for `signal` (Linux: proc(5), SigCgt).
+    /// Whether the process has installed a handler for `signal` (Linux: proc(5), SigCgt).
     [[nodiscard]] bool catches(int signal) const
     {
         std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
@@ -117,18 +118,18 @@ public:
         return false;
     }
 
-    /// Processor time that the process has used itself, in clock ticks (Linux: proc(5), utime).
+    /// CPU time of the process in user mode, in clock ticks (Linux: proc(5), utime).
     [[nodiscard]] long long used() const
     {
         std::ifstream stat("/proc/" + std::to_string(pid_) + "/stat");
         std::string word;
-        for (int i = 0; i < 13; ++i) stat >> word; // the name, the second, has no spaces
+        for (int i = 0; i < 13; ++i) stat >> word; // the second field, the name, has no spaces
         long long ticks = 0;
         stat >> ticks;
         return ticks;
     }
 
-    /// What has been printed on the terminal so far.
+    /// The text that was printed on the terminal so far.
     const std::string& printed()
     {
         std::array<char, 4096> some{};
@@ -137,11 +138,11 @@ public:
         return on_terminal_;
     }
 
-    /// Waits for the end.
+    /// Waits until the process ends.
     Outcome finish()
     {
         int status = 0;
-        if (terminal_ >= 0) // a terminal that no one reads blocks who writes
+        if (terminal_ >= 0) // a terminal that is not read blocks the process that writes to it
             eventually([&] { return printed(), waitpid(pid_, &status, WNOHANG) != 0; });
         else
             waitpid(pid_, &status, 0);
@@ -153,7 +154,7 @@ public:
     }
 
 private:
-    /// In the new process: what its stdout is to be.
+    /// The file descriptor for stdout. Called in the new process.
     static int open_output(Surroundings::Output output, const std::string& file)
     {
         if (output == Surroundings::Output::full_disk) return open("/dev/full", O_WRONLY);

@@ -76,7 +76,7 @@ TEST_F(SceneWithoutCamera, AndWithoutGeometryIsAnError)
     EXPECT_FALSE(std::filesystem::exists(picture));
 }
 
-// A tree needs triangles: what is wrong with the light, the material or the camera does not matter.
+// A tree needs only triangles. Errors in the light, the material or the camera do not matter.
 TEST_F(SceneWithoutCamera, HasTreesWhateverItsLightsMaterialsAndCameraAre)
 {
     const auto cost = [&](const std::string& text) {

@@ -1,4 +1,4 @@
-// What is printed and does not arrive is an error.
+// Output that cannot be written to standard output is an error.
 
 #include "tests/cli/run_program.h"
 

@@ -1,4 +1,5 @@
-// A single picture: its noise is told from the golden's, and more samples show more.
+// Comparison of a single picture: its noise is estimated apart from the golden's, and with more samples
+// smaller errors are detectable.
 
 #include "golden/reason.h"
 #include "tests/golden/simulated_golden.h"
@@ -29,10 +30,10 @@ TEST_F(ComparePicture, NoiseIsWhatItsSamplesLetExpectWhetherTheGoldenHasMoreOrLe
             reference(), picture(samples / 4, 7), static_cast<double>(samples), for_small_pictures());
         ASSERT_TRUE(result.noise_ratio && result.noise_error);
         std::cout << samples << " samples: " << say_noise(result) << '\n';
-        // The largest of three channels, two of which are alike.
+        // The ratio is the largest of three channels. Two of them have the same noise.
         EXPECT_NEAR(*result.noise_ratio, 1.0, 3.0 * *result.noise_error) << samples;
-        // About as well known as from 1024 values: sqrt(2 / 1024) of both noises together. The noise in
-        // the caustic is skewed and counts for more.
+        // The error is about that of a variance from 1024 values: sqrt(2 / 1024) of the variances of
+        // picture and golden together. The noise in the caustic is skewed and has a larger weight.
         const double both = 1.0 + static_cast<double>(samples) / 3072.0;
         EXPECT_GT(*result.noise_error, 0.03 * both) << samples;
         EXPECT_LT(*result.noise_error, 0.25 * both) << samples;
@@ -63,8 +64,8 @@ TEST_F(ComparePicture, MoreSamplesShowMoreUpToTheLimitThatTheGoldenSets)
         const bool at_the_limit = say_golden_limit(result).find("hardly help") != std::string::npos;
         EXPECT_EQ(at_the_limit, samples >= 16384) << samples << ": " << say_golden_limit(result);
     }
-    // A fifth of the golden's variance on top of it: a tenth in the standard error; and what is
-    // uncertain of the noise.
+    // The picture adds a fifth of the golden's variance, which is a tenth of the standard error. The
+    // rest is the uncertainty of the noise.
     EXPECT_LT(at_last, 1.2);
 }
 
@@ -80,7 +81,7 @@ TEST_F(ComparePicture, SaysHowManySamplesAreNeeded)
     EXPECT_LT(needed, 4096.0);
     EXPECT_NE(few.reason.find(" samples per pixel are needed instead of 64."), std::string::npos)
         << few.reason;
-    // With as many it can be seen; with half of them not.
+    // With somewhat more samples the specified error is detectable. With half of them it is not.
     const auto with = [&](double samples) {
         const auto batches = static_cast<std::uint64_t>(std::ceil(samples / 4.0));
         return golden::compare_picture(reference(), picture(batches, 7),
@@ -99,7 +100,8 @@ TEST_F(ComparePicture, WhereTheGoldenIsTheLimitSaysHowLongAGoldenIsNeeded)
     ASSERT_TRUE(result.shortfall);
     EXPECT_TRUE(std::isinf(result.shortfall->candidate));
     EXPECT_GT(result.golden_limit[0], 0.002);
-    // Half of the allowed variance: twice the batches that would bring the limit to the specification.
+    // The golden may have half of the allowed variance. So it needs twice the batches with which its
+    // limit would equal the specification.
     const double worst = std::max(result.golden_limit[0], result.golden_limit[2]);
     EXPECT_NEAR(result.shortfall->golden, 256.0 + 512.0 * 2.0 * std::pow(worst / 0.002, 2.0),
                 0.01 * result.shortfall->golden);
@@ -115,7 +117,7 @@ TEST_F(ComparePicture, APictureWithTheGoldensOwnNoiseIsRefused)
     EXPECT_EQ(error_of<std::invalid_argument>(
                   [&] { golden::compare_picture(reference(), reference().mean, 3072.0); }),
               "has the golden's own noise: it is not independent of the golden");
-    // Of the same noise but for a part of it.
+    // 95% of the noise is the golden's own.
     Image nearly = reference().mean;
     const Image other = picture(64, 9);
     for (std::size_t i = 0; i < nearly.pixels.size(); ++i)

@@ -86,7 +86,7 @@ TEST_F(Compare, WhatCannotMeetTheSpecificationIsInconclusiveAndNamesIt)
     EXPECT_NE(result.reason.find("(required: 0.01%)"), std::string::npos) << result.reason;
 }
 
-// What a first stage at these levels suspects without being certain of it.
+// The first stage finds this error at the suspicion level, but not at the certainty level.
 constexpr Bias suspicious{.everywhere = 0.987};
 
 TEST_F(Compare, ASuspicionThatNoStageCanConfirmIsInconclusive)
@@ -113,7 +113,7 @@ TEST_F(Compare, ASuspicionThatAFreshRenderDoesNotConfirmIsDropped)
         golden::compare(reference(), stages({suspicious, {}}), Method::ranks, for_small_pictures());
     EXPECT_EQ(cleared.verdict, Verdict::pass) << cleared.reason;
     EXPECT_EQ(cleared.stages.size(), 2u);
-    // Too bright is no confirmation of too dark.
+    // A render that is too bright does not confirm a suspicion that the picture is too dark.
     const Comparison opposite = golden::compare(reference(), stages({suspicious, {.everywhere = 1.013}}),
                                                 Method::ranks, for_small_pictures());
     EXPECT_EQ(opposite.verdict, Verdict::pass) << opposite.reason;
@@ -156,7 +156,7 @@ TEST_F(Compare, AnErrorInOneTileIsFoundThere)
     }
 }
 
-/// A picture without noise, as a furnace is: value / pixel is the same in each batch.
+/// A golden without noise, as of a furnace: each pixel has the same value in all batches.
 Golden noiseless_golden()
 {
     GoldenMaker maker(16, 16, 32);
@@ -227,7 +227,8 @@ TEST(CompareWithoutNoise, OneBrightSampleThatTheGoldenNeverSawDoesNotFail)
 
 TEST_F(Compare, AnotherEstimatorWithOtherNoisePassesAndFailsByItsMean)
 {
-    // The same picture with gamma noise: another distribution, which ranks would rightly tell apart.
+    // The same picture with gamma noise. Its distribution differs, so a test of ranks would rightly
+    // reject it.
     const SimulatedRenderer other(size, Noise::gamma);
     const auto pictures = [&](double factor) {
         Candidate result(reference().functionals);
@@ -265,14 +266,14 @@ TEST_F(Compare, ASinglePictureIsJudgedByAnAssumedNoiseAndSaysSo)
     EXPECT_EQ(right.verdict, Verdict::pass) << right.reason;
     EXPECT_EQ(right.method, Method::picture);
     ASSERT_TRUE(right.noise_ratio);
-    EXPECT_GT(*right.noise_ratio, 0.5); // the same noise, and a third more of the golden's own
+    EXPECT_GT(*right.noise_ratio, 0.5); // the same noise; the golden's own adds a third
     EXPECT_LT(*right.noise_ratio, 2.5);
     EXPECT_EQ(golden::compare_picture(reference(), picture(0.95), 1024.0).verdict, Verdict::fail);
 }
 
 TEST_F(Compare, ASinglePictureNoisierThanItClaimsDoesNotFailForIt)
 {
-    // 16 samples, said to be 16384.
+    // The picture has 16 samples, but 16384 are stated.
     const Image noisy = candidate({}, 4, 8).film().mean();
     const Comparison result = golden::compare_picture(reference(), noisy, 16384.0);
     EXPECT_NE(result.verdict, Verdict::fail) << result.reason;
@@ -281,8 +282,8 @@ TEST_F(Compare, ASinglePictureNoisierThanItClaimsDoesNotFailForIt)
 
 TEST_F(Compare, TheChanceOfAFalseAlarmIsStated)
 {
-    // One stage: the certainty level, and the level of dark pixels. Two: at least what both levels
-    // would give were the golden known exactly, and below one in a hundred thousand.
+    // With one stage, it is the certainty level plus the level of dark pixels. With two stages, it is at
+    // least the product of both levels, which holds for a golden without error, and below 1e-5.
     EXPECT_DOUBLE_EQ(golden::compare(reference(), candidate(), Method::ranks).false_alarm, 1e-8 + 1e-9);
     const double two = golden::compare(reference(), stages({{}}), Method::ranks).false_alarm;
     EXPECT_GE(two, 0.05 * 1e-7);

@@ -23,10 +23,10 @@ using golden::Weight;
 using images::Image;
 using images::Rgb;
 
-/// Half precision holds 11 bits: rounding to it moves a value by at most this, relatively.
+/// Half precision has 11 significant bits. Rounding to it changes a value by at most this, relatively.
 constexpr double half_ulp = 0x1p-11;
 
-/// A pilot of positive means and noises of 0 to 4, some pixels black.
+/// A pilot of non-negative means, with noise of 0 to 4. Some pixels are black.
 Pilot any_pilot(int width = 0, int height = 0)
 {
     const auto mean = rc::gen::map(rc::gen::inRange(0, 100), [](int i) { return i / 8.0; });
@@ -47,14 +47,15 @@ Pilot flat_pilot(int width, int height, double mean, double noise, std::uint64_t
     return pilot;
 }
 
-/// What a standardised value stands for.
+/// The value of functional f before it was standardised.
 double value_in(const Functionals& functionals, const Row& row, std::size_t f, std::size_t channel)
 {
     return functionals.expected(f, channel) +
            functionals.spread(f, channel) * static_cast<double>(row[channel * functionals.size() + f]);
 }
 
-/// Half a unit in the last place of the standardised value, which may be clipped nowhere in these tests.
+/// The rounding error of value_in: half a unit in the last place of the standardised value. That value
+/// must not be clipped.
 double rounding_of(const Functionals& functionals, const Row& row, std::size_t f, std::size_t channel)
 {
     const double z = std::abs(static_cast<double>(row[channel * functionals.size() + f]));
@@ -138,7 +139,7 @@ RC_GTEST_PROP(Functionals, ARelativeErrorOfThePictureIsOneOfEveryLinearFunctiona
         for (std::size_t f = 0; f < functionals.size(); ++f) {
             if (!golden::is_linear(functionals.at(f).weight)) continue;
             const bool black = functionals.expected(f, c) == 0.0;
-            // Rounding to half, and of at most 19 * 19 additions.
+            // The tolerance: rounding to half precision, and rounding of at most 19 * 19 additions.
             RC_ASSERT(std::abs(value_in(functionals, row, f, c) - (black ? 0.0 : factor)) <=
                       rounding_of(functionals, row, f, c) + 1e-12);
         }
@@ -172,12 +173,12 @@ TEST(Functionals, NoSampleMovesTheBoundedOnesFarHoweverBright)
     for (std::size_t f = 0; f < functionals.size(); ++f) {
         const auto [region, weight] = functionals.at(f);
         if (weight != Weight::bounded) continue;
-        // From m / (m + m) = 1/2 to 1, of one pixel among those of the region.
+        // One pixel of the region rises from m / (m + m) = 1/2 to at most 1.
         const double most = 0.5 / static_cast<double>(functionals.regions()[region].pixels);
         EXPECT_LE(value_in(functionals, after, f, 0) - value_in(functionals, before, f, 0),
                   most + rounding_of(functionals, after, f, 0));
     }
-    EXPECT_GT(after[0], 1000.0F); // while the matched one of the whole picture jumps
+    EXPECT_GT(after[0], 1000.0F); // the matched functional of the whole picture is not bounded
 }
 
 TEST(Functionals, SlopesAreTheDerivativesOfTheBoundedOnesByBrightness)
@@ -205,8 +206,9 @@ TEST(Functionals, SlopesAreTheDerivativesOfTheBoundedOnesByBrightness)
             }
             const double quotient =
                 (static_cast<double>(brighter[at]) - static_cast<double>(darker[at])) / (2.0 * h);
-            // b = 1 / (1 + m / c): its third derivative by the logarithm of c is at most 1/8, so the
-            // quotient is off by h^2 / 48 of 1/4 at most, and the logarithm by h^2 / 3. Two roundings.
+            // b = 1 / (1 + m / c). With respect to log c, its derivative is at most 1/4 and its third
+            // derivative at most 1/8. So the error of the quotient is at most h^2 / 48, and the relative
+            // error of the logarithm is h^2 / 3. Besides, both values are rounded.
             const double rounding = (std::abs(static_cast<double>(brighter[at])) +
                                      std::abs(static_cast<double>(darker[at])) + 1.0) *
                                     half_ulp / (2.0 * h);
@@ -230,7 +232,8 @@ TEST(Functionals, LightWhereThePilotIsBlackIsSeen)
 TEST(Functionals, NoiseThatThePilotDidNotSeeIsAssumedByTheRuleOfThree)
 {
     const Functionals functionals(flat_pilot(8, 8, 2.0, 0.0, 300));
-    // v >= 3 m^2 / 300 per pixel: a tenth of the mean, and a mean over 64 pixels.
+    // v >= 3 m^2 / 300: the standard deviation of a pixel is a tenth of its mean. The mean is over 64
+    // pixels.
     EXPECT_DOUBLE_EQ(functionals.spread(0, 0), 0.1 / 8.0);
     EXPECT_DOUBLE_EQ(functionals.spread(1, 0), 0.1 / 8.0);
 }
@@ -240,7 +243,7 @@ TEST(Functionals, MatchedWeightsListenWhereTheNoiseIsLow)
     Pilot pilot = flat_pilot(2, 1, 1.0, 1.0, 1'000'000);
     pilot.noise.pixels[1] = Rgb(2.0);
     const Functionals functionals(pilot);
-    // m / v = 1 and 1/4, to be divided by their sum.
+    // The weights are m / v = 1 and 1/4, divided by their sum.
     EXPECT_DOUBLE_EQ(functionals.pixel_weight(0, 1, 0), 0.8);
     EXPECT_DOUBLE_EQ(functionals.pixel_weight(0, 1, 1), 0.2);
     EXPECT_DOUBLE_EQ(functionals.pixel_weight(1, 1, 0), 0.5);

@@ -22,7 +22,7 @@ using namespace images_test;
 
 const images::Metadata metadata = {{"batch_size", "4"}, {"scene", "test"}};
 
-/// Non-negative values that need all bits of a double, some of them 0.
+/// Non-negative values. Some are 0, the others need all bits of a double.
 Image any_batch(int width, int height)
 {
     return any_image(rc::gen::map(rc::gen::inRange(0, 1000), [](int i) { return i / 7.0; }), width,
@@ -89,7 +89,8 @@ TEST(Golden, MeanIsThatOfAllBatchesAndTheReferenceThoseAfterThePilot)
     EXPECT_EQ(golden.mean.pixels[0], Rgb(4.0));
     EXPECT_EQ(golden.functionals.pilot().mean.pixels[0], Rgb(2.0));
     ASSERT_EQ(golden.reference.size(), 2u);
-    // Twice the pilot's mean lies less far from it than three and a half times the mean of 2.
+    // The pilot's mean is 2. The reference batches are 2.5 and 3.5 times that mean, so the second is
+    // farther from it.
     EXPECT_GT(golden.reference[0][0], 0.0F);
     EXPECT_GT(golden.reference[1][0], golden.reference[0][0]);
 }
@@ -118,7 +119,8 @@ TEST(Golden, ABatchThatDoesNotFitIsRefusedAndLeavesNoTrace)
     EXPECT_EQ(maker.film().batches(), 1u);
 }
 
-/// What read_golden says about a golden whose metadata was edited.
+/// The error message of read_golden for a golden whose metadata was edited, without the file's name.
+/// Empty if there is no error.
 std::string error_with(const std::string& key, const std::string& value)
 {
     const TemporaryFolder folder;
@@ -158,7 +160,7 @@ TEST(Golden, WhatIsNoneIsRefusedWithTheReason)
 
 TEST(Golden, DamagedMetadataIsAnErrorAndNoCrash)
 {
-    EXPECT_EQ(error_with("scene", "another"), ""); // the way itself works
+    EXPECT_EQ(error_with("scene", "another"), ""); // other metadata may be edited
     EXPECT_EQ(error_with("golden.pilot_batches", "removed"),
               ": not a golden: says nothing of its golden.pilot_batches");
     EXPECT_EQ(error_with("golden.pilot_batches", "-1"), ": '-1' is no golden.pilot_batches");

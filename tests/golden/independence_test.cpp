@@ -1,4 +1,5 @@
-// Pictures with the same noise are found; independent ones, however heavy the tails, never are.
+// Pictures with the same noise are found. Independent pictures are never reported, even if their noise
+// has heavy tails.
 
 #include "golden/independence.h"
 #include "tests/golden/simulated_golden.h"
@@ -24,7 +25,8 @@ protected:
         for (std::size_t i = 0; i < count; ++i) pictures.push_back(picture(batches, 20 + i));
         return pictures;
     }
-    /// The same, but for what single precision and another order of sums make of it.
+    /// The same picture with relative differences of size `by`, as from single precision or another
+    /// order of summation.
     static Image rounded_otherwise(Image image, double by = 1e-6)
     {
         std::mt19937_64 random(3);
@@ -40,7 +42,7 @@ TEST_F(Independence, OfOnePictureTwiceIsSaid)
     const auto found = shared_noise(reference(), std::vector{one[0], one[0]});
     ASSERT_TRUE(found);
     EXPECT_EQ(found->why, "are equal in all pixels");
-    // Even where the golden's noise is larger than theirs.
+    // Also if the golden has more noise than the pictures.
     const Image long_one = picture(4096, 9);
     EXPECT_TRUE(shared_noise(reference(), std::vector{long_one, long_one}));
     EXPECT_TRUE(shared_noise(reference(), std::vector(5, one[0])));
@@ -50,7 +52,7 @@ TEST_F(Independence, OfTheSameNoiseRoundedOtherwiseIsSaid)
 {
     const std::vector<Image> one = independent(1);
     EXPECT_TRUE(shared_noise(reference(), std::vector{one[0], rounded_otherwise(one[0])}));
-    // A path that a rounding error sends elsewhere here and there.
+    // In one pixel of 50, a rounding error changes the direction of a path.
     Image here_and_there = rounded_otherwise(one[0]);
     const Image other = picture(16, 99);
     for (std::size_t i = 0; i < other.pixels.size(); i += 50) here_and_there.pixels[i] = other.pixels[i];
@@ -81,7 +83,7 @@ TEST_F(Independence, OfNearlyTheSameNoiseIsSaidAndOfHalfOfItIsNot)
         return shared_noise(reference(), pictures);
     };
     EXPECT_TRUE(mixed(0.03)); // a correlation of 0.9995
-    EXPECT_FALSE(mixed(1.0)); // of 0.7
+    EXPECT_FALSE(mixed(1.0)); // a correlation of 0.7
 }
 
 TEST_F(Independence, IsNotDeniedToIndependentPicturesWhateverTheirNoise)
@@ -100,7 +102,8 @@ TEST_F(Independence, IsNotDeniedToIndependentPicturesWhateverTheirNoise)
 
 TEST_F(Independence, IsNotDeniedToWrongPictures)
 {
-    // Twice too bright, gamma-encoded, upside down: far from the golden and near to each other.
+    // Pictures that are twice as bright, gamma-encoded or upside down. They differ much from the golden
+    // and little from each other.
     std::vector<Image> pictures = {picture(4096, 30), picture(4096, 31), picture(4096, 32)};
     const auto both = [&](const auto& change) {
         std::vector<Image> changed = pictures;
@@ -121,7 +124,7 @@ TEST_F(Independence, IsNotDeniedToWrongPictures)
 
 TEST_F(Independence, IsToldWherePicturesAreNotBlack)
 {
-    // One sample in a hundred, or in eight, finds light, and finds the same.
+    // One sample in 8, or one in 100, finds light, always of the same radiance.
     std::mt19937_64 random(5);
     const auto draw = [&](std::uint64_t one_in) {
         std::vector<Image> pictures(6, Image(golden_test::size, golden_test::size));
@@ -149,7 +152,8 @@ TEST_F(Independence, IsNotDeniedToTwoGoodPicturesBesideAPoorOne)
 
 TEST(IndependenceWithoutNoise, IsNotDeniedToPicturesWithRareEvents)
 {
-    // Right and without noise in nearly all pixels, where the golden has seen rare events.
+    // The pictures are right and have no noise in nearly all pixels. In these pixels the golden contains
+    // rare events.
     std::mt19937_64 random(6);
     const auto draw = [&](std::uint64_t one_in) {
         Image image(32, 32);
@@ -175,10 +179,10 @@ TEST(IndependenceWithoutNoise, EqualPicturesAreRight)
 
 TEST(IndependenceBound, IsTheBinomialTail)
 {
-    // 9 or 10 of 10: (10 2 + 1) / 3^10.
+    // The probability of 9 or 10 of 10 is (10 * 2 + 1) / 3^10.
     EXPECT_NEAR(golden::chance_of_shared_noise(10), 21.0 / 59049.0, 1e-12);
     EXPECT_LT(golden::chance_of_shared_noise(256),
-              std::exp(-0.70 * 256.0)); // as docs/comparison.md says
+              std::exp(-0.70 * 256.0)); // the bound of docs/comparison.md
     EXPECT_EQ(golden::chance_of_shared_noise(0), 1.0);
 }
 

@@ -1,4 +1,5 @@
-// What is wrong with single pixels is found, named with its place, and told from right pictures' noise.
+// Errors of single pixels are found and reported with their position. The noise of right pictures is not
+// reported as such an error.
 
 #include "golden/odd_pixels.h"
 #include "images/non_finite.h"
@@ -73,7 +74,7 @@ TEST_F(OddPixel, ThatIsNegativeFails)
 TEST_F(OddPixel, ThatIsNegativeByRoundingAloneIsNoFault)
 {
     Image image = picture(batches, 7);
-    image.at(0, 0).b = -1e-7; // in the black corner, as a conversion between colour spaces may leave it
+    image.at(0, 0).b = -1e-7; // in the black corner, as after a conversion of colour spaces
     EXPECT_EQ(judge(image).verdict, Verdict::pass) << judge(image).reason;
 }
 
@@ -122,7 +123,7 @@ TEST_F(OddPixel, ThatIsDeadFails)
     expect_starts(result.reason, "1 pixel is far darker than the golden: ");
     EXPECT_NE(result.reason.find("of pixel (25, 3) is 0, in the golden 0."), std::string::npos)
         << result.reason;
-    // In a picture of few samples a pixel may have found no light.
+    // In a picture of few samples, a pixel may be black by chance.
     Image noisy = picture(1, 7);
     noisy.at(25, 3) = Rgb(0.0);
     EXPECT_NE(golden::compare_picture(reference(), noisy, 4.0).verdict, Verdict::fail);
@@ -140,7 +141,8 @@ TEST_F(OddPixel, ThatIsFarTooBrightIsNamedAndTheRestJudgedWithoutIt)
           "would have been", "Another picture, with another seed"})
         EXPECT_NE(result.reason.find(part), std::string::npos) << result.reason;
     EXPECT_FALSE(result.shortfall);
-    // Of few samples it is not what hinders, and the reason says what does.
+    // In a picture of few samples, the bright pixel is not the cause of INCONCLUSIVE. The reason states
+    // the true cause: too few samples.
     Image few = picture(4, 7);
     few.at(25, 3) = Rgb(20.0);
     const Comparison inconclusive =
@@ -152,8 +154,9 @@ TEST_F(OddPixel, ThatIsFarTooBrightIsNamedAndTheRestJudgedWithoutIt)
 
 TEST_F(OddPixel, ThatIsFarTooBrightHidesNoOtherError)
 {
-    // Only the whole picture shows so little for certain, and of its mean one pixel makes a tenth. What
-    // is too bright without it fails; what is too dark may lack the light of such pixels.
+    // An error this small is certain only in the mean of the whole picture, and the one pixel is a tenth
+    // of that mean. A picture that is too bright without the pixel fails. A picture that is too dark
+    // without it does not fail, as it may lack the light of such pixels.
     const auto with_one = [](double everywhere) {
         Image image = picture(batches, 7, {.everywhere = everywhere});
         image.at(25, 3) = Rgb(50.0);
@@ -171,7 +174,7 @@ TEST_F(OddPixel, ThatHindersNothingIsNamedInAPass)
     golden::Candidate candidate(reference().functionals);
     for (std::uint64_t batch = 0; batch < 64; ++batch) {
         Image image = renderer().render(2, batch);
-        if (batch == 11) image.at(25, 3) = Rgb(1e4); // one rank of 64
+        if (batch == 11) image.at(25, 3) = Rgb(1e4); // changes one rank of 64
         candidate.add_batch(image);
     }
     const Comparison result =
@@ -187,7 +190,7 @@ TEST_F(OddPixel, OfOneOfSeveralPicturesIsNamedWithThePicture)
     const Comparison right = golden::compare_pictures(reference(), pictures, for_small_pictures());
     EXPECT_EQ(right.verdict, Verdict::pass) << right.reason;
     std::vector<Image> one_negative = pictures;
-    one_negative[11].at(25, 3).r = -0.2; // the mean is positive
+    one_negative[11].at(25, 3).r = -0.2; // the mean of the pictures stays positive
     const Comparison negative =
         golden::compare_pictures(reference(), one_negative, for_small_pictures());
     EXPECT_EQ(negative.verdict, Verdict::fail);
@@ -220,8 +223,8 @@ TEST_F(OddPixel, IsNeverWrongInARightPictureWhateverItsNoise)
 
 TEST(OddPixelWithoutNoise, APictureWithLessNoiseThanItsGoldenIsNotClipped)
 {
-    // In half of the pixels the golden's noise makes it brighter than what is right and the same
-    // everywhere.
+    // The right value is the same in all pixels. In half of them the golden is brighter, because of its
+    // noise.
     std::mt19937_64 random(1);
     std::normal_distribution<double> noise(1.0, 0.2);
     golden::GoldenMaker maker(16, 16, 4);
@@ -237,7 +240,8 @@ TEST(OddPixelWithoutNoise, APictureWithLessNoiseThanItsGoldenIsNotClipped)
 
 TEST(OddPixelWithoutNoise, APictureOfFewValuesIsNotClipped)
 {
-    // Half of the samples find light, and all find the same: of 4 samples, one value in four is 0.25.
+    // Half of the samples find light, always of the same radiance. With 4 samples, one pixel in four has
+    // the value 0.25.
     std::mt19937_64 random(2);
     const auto draw = [&] {
         Image image(16, 16);
@@ -255,7 +259,7 @@ TEST(OddPixelWithoutNoise, APictureOfFewValuesIsNotClipped)
 
 TEST(OddPixelWithoutNoise, ALampThatIsSeenIsNotClipped)
 {
-    // Many pixels have exactly the largest value, as the golden has.
+    // Many pixels have exactly the largest value, in the picture and in the golden.
     golden::GoldenMaker maker(16, 16, 4);
     Image image(16, 16);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = Rgb(i < 100 ? 12.0 : 0.3);
@@ -266,14 +270,15 @@ TEST(OddPixelWithoutNoise, ALampThatIsSeenIsNotClipped)
     EXPECT_EQ(golden::odd_pixels(golden, image, 8.0, 1e-9).size(), 1u);
 }
 
-/// The bound holds for distributions that make it nearly sharp: light in one sample of many.
+/// The bound holds for distributions for which it is nearly tight: one sample of many finds light.
 RC_GTEST_PROP(ChanceOfDarkness, IsAnUpperBound, ())
 {
-    const double chance = 0.01 * static_cast<double>(*rc::gen::inRange(1, 100)); // of light, 1 / chance
+    const double chance = 0.01 * static_cast<double>(*rc::gen::inRange(1, 100)); // of a value 1 / chance
     const int n = *rc::gen::inRange(1, 200);
     const double mean = 1.0;
     const double variance = 1.0 / chance - 1.0;
-    // P(k of n) of a binomial, summed up to k: the mean is k / (n chance) then.
+    // The sum of the binomial probabilities P(k of n) up to k. If k samples find light, the mean is
+    // k / (n chance).
     double term = std::pow(1.0 - chance, n);
     double sum = 0.0;
     for (int k = 0; k < n * chance; ++k) {

@@ -1,4 +1,4 @@
-// What the reader of a FAIL is told of its possible causes.
+// The possible causes that are stated for a FAIL.
 
 #include "golden/reason.h"
 #include "tests/golden/simulated_golden.h"
@@ -37,7 +37,7 @@ TEST_F(Reason, OfABrighterPictureMayBeLongerPaths)
     const Image bright = picture(256, 7, {.everywhere = 1.125});
     EXPECT_NE(causes(bright).find("The golden's paths have at most 6 edges"), std::string::npos)
         << causes(bright);
-    // One that says how long its paths are has been compared by that already.
+    // A candidate whose metadata states its path length was already checked for it.
     EXPECT_EQ(causes(bright, {{"max_edges", "6"}}).find("edges"), std::string::npos);
     EXPECT_EQ(causes(picture(256, 7, {.everywhere = 0.9})).find("edges"), std::string::npos);
 }
@@ -46,7 +46,7 @@ TEST_F(Reason, OfTheSameFactorEverywhereMayBeTheExposure)
 {
     const std::string exposure = "the same factor everywhere";
     EXPECT_NE(causes(picture(256, 7, {.everywhere = 0.5})).find(exposure), std::string::npos);
-    // Of few samples, of which each tile may be right.
+    // A picture of few samples: each single tile may be right.
     const Image noisy = picture(1, 7, {.everywhere = 0.7});
     const golden::Golden golden = six_edges();
     const Comparison result = golden::compare_picture(golden, noisy, 4.0);

@@ -1,8 +1,8 @@
 #pragma once
 
-// One golden of a simulated picture for all tests of the judge, and candidates for it. All seeds are
-// fixed: what passes goes on passing. At the levels given, a right picture is suspected by chance once
-// in 20 choices of a seed at most.
+// One golden of a simulated picture for all tests of comparisons, and candidates for it. All seeds are
+// fixed, so the results are always the same. At the given levels, a right picture is suspected by chance
+// for at most one seed in 20.
 
 #include "golden/compare.h"
 #include "tests/calibration/simulated_renderer.h"
@@ -15,10 +15,10 @@
 
 namespace golden_test {
 
-inline constexpr int size = 32; // pixels a side
+inline constexpr int size = 32; // pixels per side
 inline const images::Metadata metadata = {{"batch_size", "4"}, {"scene_hash", "abc"}, {"seed", "1"}};
 
-/// Levels of detectable errors as 32x32 pixels can offer.
+/// Options with a specified error that is detectable with 32x32 pixels.
 inline golden::CompareOptions for_small_pictures()
 {
     golden::CompareOptions options;
@@ -33,7 +33,7 @@ protected:
         static const calibration::SimulatedRenderer instance(size, calibration::Noise::lognormal);
         return instance;
     }
-    /// Of 256 batches of pilot and 512 of reference.
+    /// A golden of 256 pilot batches and 512 reference batches.
     static const golden::Golden& reference()
     {
         static const golden::Golden instance = [] {
@@ -52,7 +52,7 @@ protected:
             result.add_batch(renderer().render(seed, batch, bias));
         return result;
     }
-    /// A picture of that many batches, of 4 samples each.
+    /// A picture of `batches` batches, of 4 samples each.
     static images::Image picture(std::uint64_t batches, std::uint64_t seed,
                                  const calibration::Bias& bias = {})
     {
@@ -61,7 +61,7 @@ protected:
             film.add_batch(renderer().render(seed, batch, bias));
         return film.mean();
     }
-    /// Stages of the simulated renderer, each with its own bias; the last goes on.
+    /// Stages of the simulated renderer, each with its own bias. Further stages have the last bias.
     static golden::RenderStage stages(const std::vector<calibration::Bias>& biases)
     {
         return [biases](std::size_t stage, std::uint64_t batches, golden::Candidate& result) {

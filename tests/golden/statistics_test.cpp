@@ -28,14 +28,14 @@ Values sorted(Values values)
     return values;
 }
 
-/// Two samples of n and m values without ties, of which exactly u pairs have a > b.
+/// Two samples, a of n values and b of m values, without ties. Exactly u pairs have a > b.
 std::array<Values, 2> samples_with_u(int n, int m, int u)
 {
     Values a;
     Values b(static_cast<std::size_t>(m));
     std::iota(b.begin(), b.end(), 1.0);
     for (int i = 0; i < n; ++i) {
-        const int below = std::min(m, u); // as many of b as this value is to exceed
+        const int below = std::min(m, u); // the number of values of b below this value
         a.push_back(below + 0.5 + i * 1e-3);
         u -= below;
     }
@@ -70,7 +70,7 @@ TEST(Moments, AreThoseOfTheTextbook)
     EXPECT_EQ(m.count, 4.0);
     EXPECT_EQ(m.mean, 0.25);
     EXPECT_DOUBLE_EQ(m.variance, 0.25);
-    // A Bernoulli variable of p = 1/4: (1 - 2 p) / sqrt(p (1 - p)).
+    // The skewness of a Bernoulli variable with p = 1/4 is (1 - 2 p) / sqrt(p (1 - p)).
     EXPECT_DOUBLE_EQ(m.skewness, 0.5 / std::sqrt(0.1875));
 }
 
@@ -84,13 +84,13 @@ TEST(Moments, OfNothingOneValueOrEqualValuesAreFinite)
     EXPECT_EQ(equal.mean, 0.1);
     EXPECT_EQ(equal.variance, 0.0);
     EXPECT_EQ(equal.skewness, 0.0);
-    // Squares that underflow: no 0 / 0.
+    // The squares underflow. The result must not be 0 / 0.
     EXPECT_EQ(golden::moments(Values{0.0, 1e-200}).skewness, 0.0);
 }
 
-// A golden of 224 batches, of which one in three brings 3 and the others nothing: noisy, and hardly
-// skewed. For another estimator of the same mean events are ten times as rare and as large: 32 batches
-// may well have none.
+// A golden of 224 batches: one in three has the value 3, the others have 0. It has much noise and little
+// skewness. In another estimator of the same mean, the events are ten times as rare and ten times as
+// large, so 32 batches may contain none of them.
 TEST(RareEvents, MayBeWhatADarkSampleLacks)
 {
     Values golden_batches;
@@ -99,15 +99,15 @@ TEST(RareEvents, MayBeWhatADarkSampleLacks)
     Values batches(32, 0.001);
     const auto lacks = [&] { return may_lack_rare_events(golden::moments(batches), golden, 3.0, 1e-8); };
     EXPECT_TRUE(lacks());
-    batches[5] = 30.0; // there is one: variance and skewness show it
+    batches[5] = 30.0; // one event: variance and skewness show it
     EXPECT_FALSE(lacks());
     batches.assign(32, 2.0); // too bright
     EXPECT_FALSE(lacks());
-    batches.assign(2000, 0.001); // so many batches would have had some
+    batches.assign(2000, 0.001); // so many batches would contain some
     EXPECT_FALSE(lacks());
 }
 
-// Of a smooth region, with 5% of noise from batch to batch, nothing can be so rare and so large.
+// In a smooth region, batches differ by 5%. Events that are so rare and so large are not possible there.
 TEST(RareEvents, AreNotWhatABlackTileLacks)
 {
     std::mt19937 random(5);
@@ -120,7 +120,7 @@ TEST(RareEvents, AreNotWhatABlackTileLacks)
         const Values batches(32, level);
         EXPECT_FALSE(may_lack_rare_events(golden::moments(batches), golden, largest, 1e-8)) << level;
     }
-    Values darker(32); // by 20%, as noisy
+    Values darker(32); // by 20%, with the same relative noise
     for (double& value : darker) value = 0.8 * noise(random);
     EXPECT_FALSE(may_lack_rare_events(golden::moments(darker), golden, largest, 1e-8));
 }
@@ -128,7 +128,7 @@ TEST(RareEvents, AreNotWhatABlackTileLacks)
 TEST(MannWhitney, CompleteSeparationIsOneArrangementOfAll)
 {
     const auto [a, b] = samples_with_u(5, 5, 25);
-    EXPECT_DOUBLE_EQ(golden::mann_whitney(a, b).p, 2.0 / 252.0); // 10 over 5
+    EXPECT_DOUBLE_EQ(golden::mann_whitney(a, b).p, 2.0 / 252.0); // 252 = 10 choose 5
     EXPECT_GT(golden::mann_whitney(a, b).z, 0.0);
     EXPECT_DOUBLE_EQ(golden::mann_whitney(b, a).p, 2.0 / 252.0);
     EXPECT_LT(golden::mann_whitney(b, a).z, 0.0);
@@ -153,7 +153,7 @@ TEST(MannWhitney, WithTiesAndContinuityCorrectionIsThatOfR)
     EXPECT_NEAR(golden::mann_whitney(sorted(first_drug), sorted(second_drug)).p, 0.06933, 5e-6);
 }
 
-// The variance of U over all ways to split the pooled values, computed one way after the other.
+// The variance of U over all ways to split the pooled values, by enumeration.
 RC_GTEST_PROP(MannWhitney, VarianceUnderTiesIsThatOfAllArrangements, ())
 {
     Values pool = values_with_ties();
@@ -183,7 +183,8 @@ RC_GTEST_PROP(MannWhitney, VarianceUnderTiesIsThatOfAllArrangements, ())
     } while (std::next_permutation(in_a.begin(), in_a.end()));
     RC_ASSERT(sum == middle * count); // exact: multiples of 1/2
     for (std::size_t i = 0; i < us.size(); ++i) {
-        // Half a step towards the middle; rounding of a few operations.
+        // The continuity correction is half a step towards the middle. The tolerance is the rounding of
+        // a few operations.
         const double expected =
             squares == 0.0 ? 0.0
                            : std::max(0.0, std::abs(us[i] - middle) - 0.5) / std::sqrt(squares / count);
@@ -223,7 +224,8 @@ RC_GTEST_PROP(MannWhitney, RaisingASampleNeverLowersIt, ())
     RC_ASSERT(golden::mann_whitney(a, b, shift).z >= golden::mann_whitney(a, b).z);
 }
 
-/// The share of p-values up to each of three levels, over trials of `test` with fresh random numbers.
+/// Expects uniform p-values over trials of `test` with new random numbers: the share of p-values up to
+/// each of three levels is that level.
 template <class Test>
 void expect_uniform_p(const Test& test, int trials)
 {
@@ -298,7 +300,7 @@ TEST(Welch, HasTheClosedFormOfOneAndTwoDegreesOfFreedom)
 {
     const MeanEstimate known{0.0, 0.0, 1.0};
     for (const double t : {0.1, 1.0, 3.0, 50.0}) {
-        // Relative accuracy of the library's tails, far below what a verdict depends on.
+        // The relative accuracy of the library's tails. Verdicts depend only on much larger differences.
         EXPECT_NEAR(golden::welch({t, 1.0, 1.0}, known).p, 1.0 - 2.0 * std::atan(t) / std::numbers::pi,
                     1e-12);
         EXPECT_NEAR(golden::welch({t, 1.0, 2.0}, known).p, 1.0 - t / std::sqrt(2.0 + t * t), 1e-12);
@@ -348,7 +350,8 @@ TEST(Welch, WithoutAnyNoiseOnlyADifferenceBeyondTheToleranceCounts)
     EXPECT_EQ(golden::welch({1.001, 0.0, 5.0}, one).p, 0.0);
     EXPECT_EQ(golden::welch({1.001, 0.0, 5.0}, one).z, infinity);
     EXPECT_EQ(golden::welch({1.001, 0.0, 5.0}, one, 0.002).p, 1.0);
-    // Rounding noise in both is no evidence: 1e-9 apart with errors of 1e-12.
+    // Rounding noise in both is not evidence of a difference. Here the means differ by 1e-9, with errors
+    // of 1e-12.
     EXPECT_EQ(golden::welch({1.0 + 1e-9, 1e-24, 5.0}, {1.0, 1e-24, 5.0}, 2e-6).p, 1.0);
     EXPECT_THROW(golden::mean_estimate(golden::moments(Values{1.0})), std::invalid_argument);
 }
@@ -364,7 +367,7 @@ TEST(RatioInterval, ToAKnownNumberIsTheIntervalOfTheMean)
 RC_GTEST_PROP(RatioInterval, OfTheInverseRatioIsTheInverse, ())
 {
     const auto positive = [] { return *rc::gen::inRange(1, 1000) / 100.0; };
-    const double relative_error = 0.05; // both are surely not 0
+    const double relative_error = 0.05; // both means are significantly above 0
     const auto estimate = [&](double mean) {
         return MeanEstimate{mean, std::pow(relative_error * mean, 2.0), 10.0};
     };
@@ -372,7 +375,7 @@ RC_GTEST_PROP(RatioInterval, OfTheInverseRatioIsTheInverse, ())
     const MeanEstimate b = estimate(positive());
     const golden::Interval ab = golden::ratio_interval(a, b, 0.99);
     const golden::Interval ba = golden::ratio_interval(b, a, 0.99);
-    // A quadratic's roots, without cancellation at these numbers: a few tens of ulps.
+    // The roots of a quadratic, without cancellation for these numbers. The error is a few tens of ulps.
     RC_ASSERT(std::abs(ab.low * ba.high - 1.0) <= 1e-12);
     RC_ASSERT(std::abs(ab.high * ba.low - 1.0) <= 1e-12);
     RC_ASSERT(ab.low < a.mean / b.mean);
@@ -410,7 +413,7 @@ TEST(Bonferroni, MultipliesUpToOne)
 
 TEST(AllExceed, OfOneSampleIsItsLevelAndOfAKnownReferenceTheProduct)
 {
-    // The quadrature's error, and what 1e14 values leave unknown of the reference.
+    // The tolerances: the error of the quadrature, and the error of a reference of 1e14 values.
     EXPECT_NEAR(golden::all_exceed(Values{64.0}, Values{1e-5}, 100.0), 1e-5, 1e-11);
     EXPECT_NEAR(golden::all_exceed(Values{64.0, 256.0}, Values{1e-2, 1e-3}, 1e14), 1e-5, 1e-9);
 }
@@ -425,7 +428,7 @@ TEST(AllExceed, CountsTheErrorThatSamplesShareWithTheirReference)
         const double reference = normal(random) / std::sqrt(128.0);
         const double first = normal(random) / std::sqrt(64.0) - reference;
         const double second = normal(random) / std::sqrt(256.0) - reference;
-        // 1.644854 is exceeded with a chance of 5%.
+        // A normal variable exceeds 1.644854 with a chance of 5%.
         both += first > 1.644854 * std::sqrt(1.0 / 64.0 + 1.0 / 128.0) &&
                 second > 1.644854 * std::sqrt(1.0 / 256.0 + 1.0 / 128.0);
     }
@@ -436,7 +439,7 @@ TEST(AllExceed, CountsTheErrorThatSamplesShareWithTheirReference)
 
 TEST(DetectableDifference, IsThatOfTheTablesOfSampleSizes)
 {
-    // 1.959964 + 0.841621 for 5% and 80% with a known error.
+    // For 5% and 80% with a known error, the sum of the quantiles is 1.959964 + 0.841621.
     EXPECT_NEAR(golden::detectable_difference(2.0, infinity, 0.05, 0.8), 2.0 * 2.801585, 2e-6);
 }
 
@@ -458,7 +461,7 @@ TEST(DetectableScale, IsFoundAsOftenAsAskedFor)
         const double e = golden::detectable_scale(reference, 50.0, alpha, power);
         found += golden::mann_whitney(draw(50, 1.0 + e), reference).p < alpha;
     }
-    // Binomial, 4.5 standard deviations (alpha = 7e-6), and 2% for what is of first order.
+    // Binomial, 4.5 standard deviations (alpha = 7e-6), and 2% for the first-order approximation.
     EXPECT_NEAR(found, power * trials, 4.5 * std::sqrt(power * (1.0 - power) * trials) + 0.02 * trials);
 }
 
@@ -469,7 +472,7 @@ TEST(DetectableShift, OfValuesNearOneIsTheirDetectableScale)
     for (double& value : reference) value = std::normal_distribution<double>(1.0, 0.01)(random);
     reference = sorted(reference);
     const double scale = golden::detectable_scale(reference, 50.0, 1e-4, 0.99);
-    // Both are found to 2%; adding e and multiplying by 1 + e differ by the deviation of 1%.
+    // Both are computed to 2%. Adding e and multiplying by 1 + e differ by the standard deviation, 1%.
     EXPECT_NEAR(golden::detectable_shift(reference, 50.0, 1e-4, 0.99), scale, 0.05 * scale);
 }
 

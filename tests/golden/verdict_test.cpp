@@ -1,4 +1,4 @@
-// When one stage is enough for a verdict.
+// The conditions under which one stage is enough for a verdict.
 
 #include "golden/judge.h"
 #include "golden/verdict.h"
@@ -17,7 +17,7 @@ using golden::Verdict;
 
 class VerdictAtOnce : public golden_test::SimulatedGolden {
 protected:
-    /// One functional of 32 batches that all have this value, in units of the golden's mean.
+    /// The finding of one functional. All 32 batches are the golden's mean times `factor`.
     static Finding judged(double factor)
     {
         const golden::CompareOptions options;
@@ -29,7 +29,7 @@ protected:
         return judge.judge(candidate.rows(), 0, 0);
     }
 
-    /// The verdict on nothing but these findings.
+    /// Whether these findings alone are enough for a verdict. If they are, the verdict must be FAIL.
     static bool is_decided(const std::vector<Finding>& findings, bool can_render_again)
     {
         Comparison comparison;
@@ -55,13 +55,13 @@ TEST_F(VerdictAtOnce, BatchesThatAreAlikeAndTooDarkAreKnownAsSuch)
     EXPECT_FALSE(judge.judge(noisy.rows(), 0, 0).darker_without_noise);
 }
 
-// Light tracing sees nothing of a tile in 32 batches, once in 40 right pictures.
+// In one of 40 right pictures, 32 batches of light tracing contain no light in a tile.
 TEST_F(VerdictAtOnce, LightThatNoBatchHasIsLookedForInAFreshRender)
 {
     EXPECT_FALSE(is_decided({judged(0.0)}, true));
 }
 
-// A picture that is given cannot be rendered again: what it lacks, it lacks.
+// A given picture cannot be rendered again, so light that it lacks is an error.
 TEST_F(VerdictAtOnce, LightThatNoPictureHasIsMissing)
 {
     EXPECT_TRUE(is_decided({judged(0.0)}, false));
