@@ -278,7 +278,7 @@ TEST_F(CompareCommand, WritesAPageAlsoOnFailure)
     EXPECT_EQ(html.find("@DATA@"), std::string::npos);
 }
 
-TEST_F(CompareCommand, WhatCannotBeComparedIsSaidInOneLine)
+TEST_F(CompareCommand, InputsThatCannotBeComparedAreNamedInOneLine)
 {
     render(candidate, {"--integrator", "bdpt"});
     const std::string plain = altered(1.0); // no metadata

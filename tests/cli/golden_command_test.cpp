@@ -220,7 +220,7 @@ TEST_F(GoldenCommand, ListsWhatIsThereAndWhatIsNot)
         << outcome.out;
 }
 
-TEST_F(GoldenCommand, SaysWhenTheSceneIsAnotherOneNow)
+TEST_F(GoldenCommand, ReportsThatTheSceneHasChanged)
 {
     ASSERT_EQ(run(golden()).status, 0);
     const std::string changed = (folder / "cornell_glass.dae").string();

@@ -34,7 +34,7 @@ TEST_P(FigureProgram, SaysHowItIsCalled)
     EXPECT_EQ(help.out.find('|'), std::string::npos) << "a table";
 }
 
-TEST_P(FigureProgram, RefusesWhatItDoesNotKnow)
+TEST_P(FigureProgram, RefusesUnknownArguments)
 {
     for (const Arguments& arguments : {Arguments{"--brighter", scene_file("point_over_plane"), "a.png"},
                                        {"a", "b.png", "c", "--d"}}) {

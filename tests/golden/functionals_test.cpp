@@ -238,7 +238,7 @@ TEST(Functionals, NoiseThatThePilotDidNotSeeIsAssumedByTheRuleOfThree)
     EXPECT_DOUBLE_EQ(functionals.spread(1, 0), 0.1 / 8.0);
 }
 
-TEST(Functionals, MatchedWeightsListenWhereTheNoiseIsLow)
+TEST(Functionals, MatchedWeightsAreLargeWhereTheNoiseIsLow)
 {
     Pilot pilot = flat_pilot(2, 1, 1.0, 1.0, 1'000'000);
     pilot.noise.pixels[1] = Rgb(2.0);

@@ -95,7 +95,7 @@ TEST(Golden, MeanIsThatOfAllBatchesAndTheReferenceThoseAfterThePilot)
     EXPECT_GT(golden.reference[1][0], golden.reference[0][0]);
 }
 
-TEST(Golden, BeforeThePilotIsCompleteThereIsNone)
+TEST(Golden, DoesNotExistBeforeThePilotIsComplete)
 {
     const TemporaryFolder folder;
     EXPECT_THROW(GoldenMaker(2, 2, 1), std::invalid_argument);
@@ -137,7 +137,7 @@ std::string error_with(const std::string& key, const std::string& value)
     return error.empty() ? error : error.substr((folder / "b.exr").string().size());
 }
 
-TEST(Golden, WhatIsNoneIsRefusedWithTheReason)
+TEST(Golden, FilesThatAreNoGoldensAreRefusedWithTheReason)
 {
     const TemporaryFolder folder;
     images::write_exr(folder / "a.exr", film_of(Image(3, 3)), metadata);

@@ -46,7 +46,7 @@ protected:
     }
 };
 
-TEST_F(OddPixel, ThereIsNoneInARightPicture)
+TEST_F(OddPixel, IsNotFoundInARightPicture)
 {
     EXPECT_TRUE(look(picture(batches, 7)).empty());
 }

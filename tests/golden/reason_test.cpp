@@ -67,7 +67,7 @@ TEST_F(Reason, OfAPictureUpsideDownIsTheOrderOfItsRows)
     EXPECT_EQ(causes(picture(256, 7, {.everywhere = 0.5})).find("upside down"), std::string::npos);
 }
 
-TEST_F(Reason, OfAPassThereIsNone)
+TEST_F(Reason, IsNotGivenForAPass)
 {
     const Image image = picture(256, 7);
     const golden::Golden golden = six_edges();

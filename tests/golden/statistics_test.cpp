@@ -204,7 +204,7 @@ RC_GTEST_PROP(MannWhitney, ExchangingTheSamplesTurnsTheSign, ())
     RC_ASSERT(ab.p <= 1.0);
 }
 
-RC_GTEST_PROP(MannWhitney, KnowsOnlyTheOrderOfTheValues, ())
+RC_GTEST_PROP(MannWhitney, DependsOnlyOnTheOrderOfTheValues, ())
 {
     Values a = any_values();
     Values b = any_values();
@@ -267,7 +267,7 @@ TEST(MannWhitney, NothingAndConstantsAndDisorderAreOrdinaryInputs)
     EXPECT_THROW(golden::mann_whitney(Values{2.0, 1.0}, Values{1.0}), std::invalid_argument);
 }
 
-TEST(MannWhitney, ADifferenceWithinTheToleranceIsNone)
+TEST(MannWhitney, ADifferenceWithinTheToleranceCountsAsEqual)
 {
     const Values reference(512, 1.0);
     const Values rounded(64, 1.0 + 1e-6);

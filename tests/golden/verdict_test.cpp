@@ -43,7 +43,7 @@ protected:
     }
 };
 
-TEST_F(VerdictAtOnce, BatchesThatAreAlikeAndTooDarkAreKnownAsSuch)
+TEST_F(VerdictAtOnce, BatchesThatAreAlikeAndTooDarkAreMarked)
 {
     for (const double factor : {0.0, 0.5, 0.9})
         EXPECT_TRUE(judged(factor).darker_without_noise) << factor;

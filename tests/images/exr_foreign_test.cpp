@@ -219,7 +219,7 @@ TEST(ForeignExr, SeveralPartsAndDeepDataAreRefused)
     EXPECT_EQ(error_of_reading(folder / "deep.exr"), "holds deep data; only flat pictures can be read");
 }
 
-TEST(ForeignExr, AStateThatIsIncompleteIsAnErrorAndNoStateAtAllIsNone)
+TEST(ForeignExr, AnIncompleteStateIsAnErrorAndNoStateIsAllowed)
 {
     const TemporaryFolder folder;
     Imf::Header partial = header(Imf::FLOAT);

@@ -121,7 +121,7 @@ TEST(EndsOfPaths, OfAnOrdinarySceneTouchNothing)
 }
 
 // Floats cannot tell whether a lamp is 1e-9 in front of its wall or behind it; doubles can.
-TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesKnow)
+TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesResolve)
 {
     for (const double gap : {1e-9, -1e-9, 0.0}) {
         const scenes::Scene scene = fast_transport_test::touching_scene(Touching::lamp_in_wall, 2, gap);

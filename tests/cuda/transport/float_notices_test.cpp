@@ -64,7 +64,7 @@ TEST(FloatNotices, NameWhatIsTooSmallToLeave)
         << fast::float_notices(scene)[0];
 }
 
-TEST(FloatNotices, NameEndsWhoseHeightIsNotKnown)
+TEST(FloatNotices, NameEndsWhoseHeightFloatsCannotResolve)
 {
     scenes::Scene scene = ground();
     const auto with_light_at = [&](double height) {

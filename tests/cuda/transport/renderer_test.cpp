@@ -301,7 +301,7 @@ TEST(Needs, LeavingOutWhatASceneDoesNotHaveChangesNothing)
 }
 
 // scenes::requirements decides which kernel is used. Black lights require nothing.
-TEST(Needs, OfBlackLightsAreNoneAndTheyChangeNothing)
+TEST(Needs, OfBlackLightsAreEmptyAndTheLightsChangeNoBit)
 {
     const scenes::Scene scene = our_scene("cornell_diffuse");
     scenes::Scene more = scene;

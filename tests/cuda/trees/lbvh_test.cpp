@@ -210,7 +210,7 @@ std::string reference_message(const std::vector<fast::Aabb>& boxes)
     return "";
 }
 
-TEST_P(LbvhOn, RejectsWhatIsNoBoxInTheReferencesWords)
+TEST_P(LbvhOn, RejectsInvalidBoxesWithTheReferencesMessage)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();

@@ -108,7 +108,7 @@ TEST(LeaveSurface, ARayFromATriangleMeetsNeitherItNorItsDuplicate)
     }
 }
 
-TEST(SurfacePoint, IsWhereTheRayMeetsTheSurfaceAndKnowsItsSideAndMaterial)
+TEST(SurfacePoint, IsWhereTheRayMeetsTheSurfaceAndHasItsSideAndMaterial)
 {
     Random random(7);
     for (const double size : {1e-15, 1.0, 1e15})
