@@ -137,7 +137,8 @@ SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
     double radius = 0;
     if (const auto box = scenes::bounds(scene))
         radius = glm::length(box->max - box->min) * arrays.place.scale / 2.0;
-    arrays.radius = radius > 0.0 ? static_cast<float>(radius) : 1.0f; // around nothing, any will do
+    arrays.radius =
+        radius > 0.0 ? static_cast<float>(radius) : 1.0f; // without surfaces: any positive number
     arrays.diagonal = static_cast<float>(2.0 * radius);
     arrays.triangles = triangles_of(scene, arrays.place);
     arrays.spheres = spheres_of(scene, arrays.place);

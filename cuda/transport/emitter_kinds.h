@@ -205,6 +205,12 @@ struct SourceDirection {
     float pdf_solid_angle;
 };
 
+/// Of a spot light, in a direction of its cone. Light walks are uniform in the cone.
+HD inline SourceDirection spot_direction(const Light& spot, float versine)
+{
+    return {spot_falloff(spot, versine), 1.0f / (2.0f * pi * spot.versine_cutoff)};
+}
+
 /// For the unit direction `w`. False if the source emits nothing there.
 HD inline bool source_direction(const Emitter& emitter, const Light& light, const Vec3& w,
                                 SourceDirection& result)
@@ -213,7 +219,7 @@ HD inline bool source_direction(const Emitter& emitter, const Light& light, cons
     if (emitter.kind == EmitterKind::spot) {
         const float off_axis = versine(light.direction, w);
         if (!(off_axis < light.versine_cutoff)) return false;
-        result = {spot_falloff(light, off_axis), 1.0f / (2.0f * pi * light.versine_cutoff)};
+        result = spot_direction(light, off_axis);
     }
     return true;
 }
@@ -230,7 +236,7 @@ HD inline Vec3 sample_source_direction(const Emitter& emitter, const Light& ligh
     on_circle(std::sqrt(off_axis * (2.0f - off_axis)), u2, w_local.x, w_local.y);
     // The falloff of the angle as drawn: the direction may round out of the cone, and no power may be
     // lost.
-    result = {spot_falloff(light, off_axis), 1.0f / (2.0f * pi * light.versine_cutoff)};
+    result = spot_direction(light, off_axis);
     return glm::normalize(Frame(light.direction).to_world(w_local));
 }
 
