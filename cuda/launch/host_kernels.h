@@ -1,18 +1,49 @@
 #pragma once
 
-// The kernels for the threads of the host, compiled in host_path.cpp, host_light.cpp and
-// host_bdpt.cpp.
+// The kernels for the threads of the host. They are compiled once for every instruction set
+// (instruction_set.h), in host_path.cpp, host_light.cpp and host_bdpt.cpp.
 
+#include "cuda/launch/instruction_set.h"
 #include "cuda/launch/launch_samples.h"
 #include "cuda/parallel/threaded_executor.h"
 
+#include <vector>
+
 namespace fast {
 
-extern template void launch_samples<Integrator::path>(ThreadedExecutor&, Needs, const SceneInMemory&,
-                                                      const SampleJob&);
-extern template void launch_samples<Integrator::bdpt>(ThreadedExecutor&, Needs, const SceneInMemory&,
-                                                      const SampleJob&);
-extern template void launch_samples<Integrator::light>(ThreadedExecutor&, Needs, const SceneInMemory&,
-                                                       const SampleJob&);
+/// Threads whose kernels are those of one instruction set.
+struct HostThreads : ThreadedExecutor {
+    using ThreadedExecutor::ThreadedExecutor;
+    InstructionSet instructions = InstructionSet::baseline;
+    std::vector<std::uint32_t> path_words; // of all threads: stages/trace_paths.h
+};
+
+// launch_samples on a HostThreads.
+template <>
+void launch_samples<Integrator::path>(HostThreads&, Needs, const SceneInMemory&, const SampleJob&);
+template <>
+void launch_samples<Integrator::bdpt>(HostThreads&, Needs, const SceneInMemory&, const SampleJob&);
+template <>
+void launch_samples<Integrator::light>(HostThreads&, Needs, const SceneInMemory&, const SampleJob&);
 
 } // namespace fast
+
+// The same, compiled for one instruction set. The names are those of cmake/instruction_sets.cmake.
+#define PLUMBLINE_DECLARE_KERNELS(set)                                                                  \
+    extern "C" {                                                                                        \
+    void plumbline_kernels_##set##_path(fast::HostThreads&, fast::Needs, const fast::SceneInMemory&,    \
+                                        const fast::SampleJob&);                                        \
+    void plumbline_kernels_##set##_bdpt(fast::HostThreads&, fast::Needs, const fast::SceneInMemory&,    \
+                                        const fast::SampleJob&);                                        \
+    void plumbline_kernels_##set##_light(fast::HostThreads&, fast::Needs, const fast::SceneInMemory&,   \
+                                         const fast::SampleJob&);                                       \
+    }
+PLUMBLINE_DECLARE_KERNELS(baseline)
+PLUMBLINE_DECLARE_KERNELS(avx2)
+PLUMBLINE_DECLARE_KERNELS(avx512)
+#undef PLUMBLINE_DECLARE_KERNELS
+
+// Names the function of this file's instruction set.
+#define PLUMBLINE_JOIN_KERNELS(set, integrator) plumbline_kernels_##set##_##integrator
+#define PLUMBLINE_NAME_KERNELS(set, integrator) PLUMBLINE_JOIN_KERNELS(set, integrator)
+#define PLUMBLINE_KERNELS_OF(integrator) PLUMBLINE_NAME_KERNELS(PLUMBLINE_KERNELS, integrator)

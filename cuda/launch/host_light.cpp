@@ -1,11 +1,10 @@
-// The kernels of Integrator::light, for the threads of the host.
+// The kernels of Integrator::light for the threads of the host, for one instruction set.
 
-#include "cuda/launch/launch_samples.h"
-#include "cuda/parallel/threaded_executor.h"
+#include "cuda/launch/host_kernels.h"
 
-namespace fast {
-
-template void launch_samples<Integrator::light>(ThreadedExecutor&, Needs, const SceneInMemory&,
-                                                const SampleJob&);
-
-} // namespace fast
+void PLUMBLINE_KERNELS_OF(light)(fast::HostThreads& threads, fast::Needs needs,
+                                 const fast::SceneInMemory& scene, const fast::SampleJob& job)
+{
+    fast::launch_samples<fast::Integrator::light>(static_cast<fast::ThreadedExecutor&>(threads), needs,
+                                                  scene, job);
+}

@@ -14,16 +14,19 @@ constexpr LaunchLimits limits{8192, 8192, std::size_t{1} << 30};
 
 /// The parts of a renderer on the host. The order of the members matters.
 struct HostParts {
-    explicit HostParts(unsigned threads) : executor(threads, most_per_block) {}
+    HostParts(unsigned threads, InstructionSet instructions) : executor(threads, most_per_block)
+    {
+        executor.instructions = instructions;
+    }
     HostMemory memory;
-    ThreadedExecutor executor;
+    HostThreads executor;
 };
 
-class HostRenderer : private HostParts, public BatchRenderer<ThreadedExecutor> {
+class HostRenderer : private HostParts, public BatchRenderer<HostThreads> {
 public:
     HostRenderer(const scenes::Scene& scene, int width, int height, const images::RenderOptions& options,
-                 unsigned threads, Needs at_least)
-        : HostParts(threads),
+                 unsigned threads, InstructionSet instructions, Needs at_least)
+        : HostParts(threads, instructions),
           BatchRenderer(memory, executor, limits, scene, width, height, options, at_least)
     {}
 };
@@ -32,9 +35,10 @@ public:
 
 std::unique_ptr<Renderer> host_renderer(const scenes::Scene& scene, int width, int height,
                                         const images::RenderOptions& options, unsigned threads,
-                                        Needs at_least)
+                                        InstructionSet instructions, Needs at_least)
 {
-    return std::make_unique<HostRenderer>(scene, width, height, options, threads, at_least);
+    return std::make_unique<HostRenderer>(scene, width, height, options, threads, instructions,
+                                          at_least);
 }
 
 } // namespace fast

@@ -3,6 +3,7 @@
 // The fast path as an images::Renderer (images/renderer.h), for code that does not depend on the
 // device.
 
+#include "cuda/launch/instruction_set.h"
 #include "cuda/transport/needs.h"
 #include "images/render_options.h"
 #include "images/renderer.h"
@@ -26,12 +27,14 @@ public:
 };
 
 /// Renders on `threads` threads of the host. The scene must have a camera; it is copied. `at_least`:
-/// further abilities of the kernels, to measure their cost. Throws std::invalid_argument for
+/// further abilities of the kernels, to measure their cost. `instructions`: one of instruction_sets();
+/// the bits do not depend on it, except those of splats as floats. Throws std::invalid_argument for
 /// coordinates that are not finite as floats, for lights that floats cannot represent
 /// (scene_arrays.h), for a picture of 0 pixels or of 2^32 or more, and for options that contradict
 /// each other; OutOfMemory.
 std::unique_ptr<Renderer> host_renderer(const scenes::Scene& scene, int width, int height,
                                         const images::RenderOptions& options, unsigned threads,
+                                        InstructionSet instructions = best_instruction_set(),
                                         Needs at_least = {});
 
 /// The same on the first GPU. Throws std::runtime_error if there is no GPU, and for errors of CUDA.

@@ -15,7 +15,8 @@ namespace fast {
 
 /// Host only: a function that a thread calls before each of its atomic operations, or null. Tests use
 /// it to decide there which thread goes on.
-inline thread_local void (*schedule_point)() = nullptr;
+using SchedulePoint = void (*)();
+extern constinit thread_local SchedulePoint schedule_point;
 
 /// Adds one to `counter` and returns its previous value: the first thread to arrive gets 0, the second
 /// 1.

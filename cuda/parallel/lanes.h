@@ -1,89 +1,93 @@
 #pragma once
 
-// Four floats, added, multiplied and compared lane by lane. On the host they are one vector register (by
-// the vector extension of g++ and clang, which runs on every processor). For nvcc they are an array,
-// because on a GPU each thread computes one float at a time.
+// Eight floats, added, multiplied and compared lane by lane. On the host they are one or two vector
+// registers, by the vector extension of g++ and clang, which runs on every processor and uses the widest
+// instructions that a file is compiled for. For nvcc they are an array, because on a GPU each thread
+// computes one float at a time.
 
 #include "cuda/parallel/host_device.h"
 
-#include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
+
+#if !defined(__CUDACC__) && defined(__SSE__)
+#include <immintrin.h>
+#endif
 
 namespace fast {
 
-/// The key of a lane that is left out; it sorts behind all other keys.
-constexpr std::uint32_t not_ordered = 0xffff'ffff;
+constexpr int lane_count = 8;
+
+/// Bit i belongs to lane i.
+using LaneBits = std::uint32_t;
 
 #if defined(__CUDACC__)
 
-/// Whether four lanes take as long as one.
+/// Whether all lanes take as long as one.
 constexpr bool lanes_at_once = false;
 
-struct alignas(16) Lanes { // same layout in memory as the host's Lanes
-    float lane[4];
+struct alignas(32) Lanes { // same layout in memory as the host's Lanes
+    float lane[lane_count];
 
     HD float operator[](int i) const { return lane[i]; }
     HD float& operator[](int i) { return lane[i]; }
 };
 
+namespace detail {
+
+/// The lanes function(i).
+template <class Function>
+HD Lanes each_lane(const Function& function)
+{
+    Lanes result;
+    for (int i = 0; i < lane_count; ++i) result[i] = function(i);
+    return result;
+}
+
+} // namespace detail
+
 HD inline Lanes all_lanes(float x)
 {
-    return {{x, x, x, x}};
+    return detail::each_lane([&](int) { return x; });
 }
 
 HD inline Lanes operator-(const Lanes& a, const Lanes& b)
 {
-    return {{a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]}};
+    return detail::each_lane([&](int i) { return a[i] - b[i]; });
 }
 
 HD inline Lanes operator+(const Lanes& a, const Lanes& b)
 {
-    return {{a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]}};
+    return detail::each_lane([&](int i) { return a[i] + b[i]; });
 }
 
 HD inline Lanes operator*(const Lanes& a, const Lanes& b)
 {
-    return {{a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]}};
+    return detail::each_lane([&](int i) { return a[i] * b[i]; });
 }
 
 /// a where a > b, else b; so b where one of them is NaN.
 HD inline Lanes larger(const Lanes& a, const Lanes& b)
 {
-    Lanes result;
-    for (int i = 0; i < 4; ++i) result[i] = a[i] > b[i] ? a[i] : b[i];
-    return result;
+    return detail::each_lane([&](int i) { return a[i] > b[i] ? a[i] : b[i]; });
 }
 
 /// a where a < b, else b; so b where one of them is NaN.
 HD inline Lanes smaller(const Lanes& a, const Lanes& b)
 {
-    Lanes result;
-    for (int i = 0; i < 4; ++i) result[i] = a[i] < b[i] ? a[i] : b[i];
-    return result;
+    return detail::each_lane([&](int i) { return a[i] < b[i] ? a[i] : b[i]; });
 }
 
 HD inline Lanes operator-(const Lanes& a)
 {
-    return {{-a[0], -a[1], -a[2], -a[3]}};
+    return detail::each_lane([&](int i) { return -a[i]; });
 }
 
-/// See below.
-HD inline void sort_keys(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[4])
+/// Where a <= b; not where one of them is NaN.
+HD inline LaneBits not_above(const Lanes& a, const Lanes& b)
 {
-    for (std::uint32_t i = 0; i < 4; ++i) {
-        const bool ordered = near[static_cast<int>(i)] <= far[static_cast<int>(i)];
-        keys[i] =
-            ordered ? (std::bit_cast<std::uint32_t>(near[static_cast<int>(i)]) & ~3u) | i : not_ordered;
-    }
-}
-
-/// See below.
-HD inline std::uint32_t non_negative_mask(const Lanes& a)
-{
-    std::uint32_t bits = 0;
-    for (int i = 0; i < 4; ++i) bits |= a[i] >= 0 ? 1u << i : 0u;
+    LaneBits bits = 0;
+    for (int i = 0; i < lane_count; ++i) bits |= a[i] <= b[i] ? 1u << i : 0u;
     return bits;
 }
 
@@ -91,53 +95,121 @@ HD inline std::uint32_t non_negative_mask(const Lanes& a)
 
 constexpr bool lanes_at_once = true;
 
-using Lanes = float __attribute__((vector_size(16)));
+namespace detail {
+
+#if defined(__AVX__)
+constexpr int register_lanes = 8;
+#else
+constexpr int register_lanes = 4; // wider vectors would be passed in other ways than with AVX
+#endif
+using Register = float __attribute__((vector_size(4 * register_lanes)));
+
+} // namespace detail
+
+struct Lanes {
+    detail::Register parts[lane_count / detail::register_lanes];
+
+    float operator[](int i) const
+    {
+        return parts[i / detail::register_lanes][i % detail::register_lanes];
+    }
+    float& operator[](int i)
+    {
+        return reinterpret_cast<float*>(parts)[i]; // a vector may be accessed as its elements
+    }
+};
+
+namespace detail {
+
+/// The lanes whose registers are function(i).
+template <class Function>
+Lanes each_register(const Function& function)
+{
+    Lanes result;
+    for (int i = 0; i < lane_count / register_lanes; ++i) result.parts[i] = function(i);
+    return result;
+}
+
+} // namespace detail
 
 inline Lanes all_lanes(float x)
 {
-    return Lanes{x, x, x, x};
+    return detail::each_register([&](int) { return x - detail::Register{}; });
+}
+
+inline Lanes operator+(const Lanes& a, const Lanes& b)
+{
+    return detail::each_register([&](int i) { return a.parts[i] + b.parts[i]; });
+}
+
+inline Lanes operator-(const Lanes& a, const Lanes& b)
+{
+    return detail::each_register([&](int i) { return a.parts[i] - b.parts[i]; });
+}
+
+inline Lanes operator*(const Lanes& a, const Lanes& b)
+{
+    return detail::each_register([&](int i) { return a.parts[i] * b.parts[i]; });
+}
+
+inline Lanes operator-(const Lanes& a)
+{
+    return detail::each_register([&](int i) { return -a.parts[i]; });
 }
 
 /// a where a > b, else b; so b where one of them is NaN.
 inline Lanes larger(const Lanes& a, const Lanes& b)
 {
-    return a > b ? a : b;
+    return detail::each_register(
+        [&](int i) { return a.parts[i] > b.parts[i] ? a.parts[i] : b.parts[i]; });
 }
 
 /// a where a < b, else b; so b where one of them is NaN.
 inline Lanes smaller(const Lanes& a, const Lanes& b)
 {
-    return a < b ? a : b;
+    return detail::each_register(
+        [&](int i) { return a.parts[i] < b.parts[i] ? a.parts[i] : b.parts[i]; });
 }
 
-using Words = std::uint32_t __attribute__((vector_size(16)));
-
-/// Keys that sort lanes by `near` in ascending order. The key of a lane is the bits of its `near` with
-/// the lane's number in the lowest two bits; not_ordered where near > far. The bits of floats >= 0
-/// sort like the floats: `near` must be >= 0, and neither argument may be NaN. With those two bits
-/// cleared, a key is a float that equals `near` or lies at most 3 ulps below it.
-inline void sort_keys(const Lanes& near, const Lanes& far, std::uint32_t (&keys)[4])
+/// Where a <= b; not where one of them is NaN.
+inline LaneBits not_above(const Lanes& a, const Lanes& b)
 {
-    const Words named = (std::bit_cast<Words>(near) & ~3u) | Words{0, 1, 2, 3};
-    const Words sorted = named | std::bit_cast<Words>(near > far);
-    std::memcpy(keys, &sorted, sizeof keys);
-}
-
-/// Bit i is set where a[i] >= 0; not where a[i] is NaN.
-inline std::uint32_t non_negative_mask(const Lanes& a)
-{
-    const Words bits = std::bit_cast<Words>(a >= Lanes{0, 0, 0, 0}) & Words{1, 2, 4, 8};
-    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(bits);
-    const std::uint64_t both = halves[0] | halves[1];
-    return static_cast<std::uint32_t>(both | both >> 32);
+#if defined(__AVX__)
+    return static_cast<LaneBits>(_mm256_movemask_ps(std::bit_cast<__m256>(a.parts[0] <= b.parts[0])));
+#elif defined(__SSE__)
+    return static_cast<LaneBits>(_mm_movemask_ps(std::bit_cast<__m128>(a.parts[0] <= b.parts[0])) |
+                                 _mm_movemask_ps(std::bit_cast<__m128>(a.parts[1] <= b.parts[1])) << 4);
+#else
+    LaneBits bits = 0;
+    for (int i = 0; i < lane_count; ++i) bits |= a[i] <= b[i] ? 1u << i : 0u;
+    return bits;
+#endif
 }
 
 #endif
+
+/// Where a >= 0; not where a is NaN.
+HD inline LaneBits non_negative(const Lanes& a)
+{
+    return not_above(all_lanes(0.0f), a);
+}
 
 /// The absolute value.
 HD inline Lanes magnitude(const Lanes& a)
 {
     return larger(a, -a);
+}
+
+/// The number of the lowest lane in `bits`, which are not all 0; takes it out of them.
+HD inline int take_lane(LaneBits& bits)
+{
+#if defined(__CUDA_ARCH__)
+    const int lane = __ffs(static_cast<int>(bits)) - 1;
+#else
+    const int lane = std::countr_zero(bits);
+#endif
+    bits &= bits - 1;
+    return lane;
 }
 
 } // namespace fast

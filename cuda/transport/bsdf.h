@@ -17,13 +17,15 @@ enum class MaterialKind : std::uint32_t { lambertian, mirror, glass, emission };
 
 /// A scenes::Material as floats. All kinds have the same members, because kernels read them from one
 /// array.
-struct Material {
-    MaterialKind kind;
-    float ior;         // of glass
-    float survival;    // probability that a walk goes on from here, after bounces_without_roulette
-    Rgb color;         // albedo, reflectance, or emitted radiance
-    Rgb transmittance; // of glass
+template <class F>
+struct MaterialOf {
+    KindOf<F, MaterialKind> kind;
+    F ior;                   // of glass
+    F survival;              // probability that a walk goes on from here, after bounces_without_roulette
+    Vec3Of<F> color;         // albedo, reflectance, or emitted radiance
+    Vec3Of<F> transmittance; // of glass
 };
+using Material = MaterialOf<float>;
 
 /// On the host: the material as floats. Without `roulette` every walk goes on.
 inline Material material_of(const scenes::Material& source, bool roulette)
@@ -63,16 +65,19 @@ enum class Transport { radiance, power };
 /// Densities of a Lambertian surface are per solid angle. Those of a delta lobe are its probability
 /// times eta^2 |cos| on the side where it ends: per unit of eta^2 cos d omega, in which both directions
 /// of a path through the lobe can be compared [Veach 1997, sec. 5.2; docs/bdpt.md].
-struct BsdfSample {
-    Vec3 wi_local;
-    Rgb value;     // f |cos theta_i| / pdf: what the walk's throughput is multiplied with
-    float pdf_fwd; // of wi given wo
-    float pdf_rev; // of wo given wi
+template <class F>
+struct BsdfSampleOf {
+    Vec3Of<F> wi_local;
+    Vec3Of<F> value; // f |cos theta_i| / pdf: what the walk's throughput is multiplied with
+    F pdf_fwd;       // of wi given wo
+    F pdf_rev;       // of wo given wi
 };
+using BsdfSample = BsdfSampleOf<float>;
 
 /// Whether the material scatters into a range of directions. Only such a vertex can be joined to one
 /// that was sampled independently.
-HD inline bool scatters(const Material& material)
+template <class F>
+HD MaskOf<F> scatters(const MaterialOf<F>& material)
 {
     return material.kind == MaterialKind::lambertian;
 }
@@ -82,56 +87,67 @@ constexpr int bounces_without_roulette = 4;
 
 /// Fraction that a dielectric boundary reflects; `cos_i` >= 0 on the side with index eta_i, eta = eta_i
 /// / eta_t. Sets `cos_t`, 0 under total reflection. [Fresnel's equations; Born & Wolf 1999, sec. 1.5.2]
-HD inline float fresnel(float cos_i, float eta, float& cos_t)
+template <class F>
+HD F fresnel(const F& cos_i, const F& eta, F& cos_t)
 {
     // 1 - sin_t^2, from cos_i^2 <= 1: near grazing incidence nothing cancels that Snell's law does not
     // cancel itself.
-    const float sin2_t = eta * eta * glm::max(0.0f, (1.0f - cos_i) * (1.0f + cos_i));
-    cos_t = 0.0f;
-    if (sin2_t >= 1.0f) return 1.0f;
-    cos_t = std::sqrt(1.0f - sin2_t);
-    const float parallel = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    const float perpendicular = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+    const F sin2_t = eta * eta * greater(F(0.0f), (1.0f - cos_i) * (1.0f + cos_i));
+    const MaskOf<F> total = sin2_t >= 1.0f;
+    cos_t = select(total, F(0.0f), square_root(1.0f - sin2_t));
+    const F parallel = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    const F perpendicular = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    return select(total, F(1.0f), 0.5f * (parallel * parallel + perpendicular * perpendicular));
 }
 
 /// Glass reflects with the probability of Fresnel's reflectance, else refracts.
-HD inline BsdfSample sample_glass(const Material& glass, const Vec3& wo, float u_lobe, Transport carried)
+template <class F>
+HD BsdfSampleOf<F> sample_glass(const MaterialOf<F>& glass, const Vec3Of<F>& wo, const F& u_lobe,
+                                Transport carried)
 {
-    const bool outside = wo.z > 0.0f;
-    const float eta_i = outside ? 1.0f : glass.ior;
-    const float eta_t = outside ? glass.ior : 1.0f;
-    const float eta = eta_i / eta_t;
-    float cos_t = 0.0f;
-    const float reflected = fresnel(std::abs(wo.z), eta, cos_t);
-    if (u_lobe < reflected) {
-        const float density = reflected * eta_i * eta_i * std::abs(wo.z);
-        return {Vec3(-wo.x, -wo.y, wo.z), glass.color, density, density};
-    }
+    const MaskOf<F> outside = wo.z > 0.0f;
+    const F eta_i = select(outside, F(1.0f), glass.ior);
+    const F eta_t = select(outside, glass.ior, F(1.0f));
+    const F eta = eta_i / eta_t;
+    F cos_t = 0.0f;
+    const F reflected = fresnel(magnitude_of(wo.z), eta, cos_t);
+    const F density = reflected * eta_i * eta_i * magnitude_of(wo.z);
     // Radiance is squeezed into a smaller solid angle on the denser side; power is not.
-    const float scale = carried == Transport::radiance ? eta * eta : 1.0f;
-    const float refracted = 1.0f - reflected;
-    return {glm::normalize(Vec3(-eta * wo.x, -eta * wo.y, outside ? -cos_t : cos_t)),
-            scale * glass.transmittance, refracted * eta_t * eta_t * cos_t,
-            refracted * eta_i * eta_i * std::abs(wo.z)};
+    const F scale = carried == Transport::radiance ? eta * eta : F(1.0f);
+    const F refracted = 1.0f - reflected;
+    return select(u_lobe < reflected,
+                  BsdfSampleOf<F>{Vec3Of<F>(-wo.x, -wo.y, wo.z), glass.color, density, density},
+                  BsdfSampleOf<F>{glm::normalize(Vec3Of<F>(-eta * wo.x, -eta * wo.y,
+                                                           select(outside, -cos_t, cos_t))),
+                                  scale * glass.transmittance, refracted * eta_t * eta_t * cos_t,
+                                  refracted * eta_i * eta_i * magnitude_of(wo.z)});
 }
 
 /// Draws wi given wo from the first three numbers of `u`. A value of zero means that the walk ends.
 /// `specular`: whether the scene has mirrors or glass at all.
-template <bool specular>
-HD BsdfSample sample_bsdf(const Material& material, const Vec3& wo, const Uniforms& u, Transport carried)
+template <bool specular, class F>
+HD BsdfSampleOf<F> sample_bsdf(const MaterialOf<F>& material, const Vec3Of<F>& wo,
+                               const UniformsOf<F>& u, Transport carried)
 {
-    if (material.kind == MaterialKind::lambertian) {
-        Vec3 wi = sample_cosine_hemisphere(u[0], u[1]);
-        if (wo.z < 0.0f) wi.z = -wi.z;
-        return {wi, material.color, std::abs(wi.z) * inverse_pi, std::abs(wo.z) * inverse_pi};
+    BsdfSampleOf<F> sample{wo, Vec3Of<F>(0.0f), F(0.0f), F(0.0f)};
+    if (const MaskOf<F> here = material.kind == MaterialKind::lambertian; any(here)) {
+        Vec3Of<F> wi = sample_cosine_hemisphere(u[0], u[1]);
+        wi.z = select(wo.z < 0.0f, -wi.z, wi.z);
+        sample = select(here,
+                        BsdfSampleOf<F>{wi, material.color, magnitude_of(wi.z) * inverse_pi,
+                                        magnitude_of(wo.z) * inverse_pi},
+                        sample);
     }
     if constexpr (specular) {
-        if (material.kind == MaterialKind::mirror)
-            return {Vec3(-wo.x, -wo.y, wo.z), material.color, std::abs(wo.z), std::abs(wo.z)};
-        if (material.kind == MaterialKind::glass) return sample_glass(material, wo, u[2], carried);
+        if (const MaskOf<F> here = material.kind == MaterialKind::mirror; any(here))
+            sample = select(here,
+                            BsdfSampleOf<F>{Vec3Of<F>(-wo.x, -wo.y, wo.z), material.color,
+                                            magnitude_of(wo.z), magnitude_of(wo.z)},
+                            sample);
+        if (const MaskOf<F> here = material.kind == MaterialKind::glass; any(here))
+            sample = select(here, sample_glass(material, wo, u[2], carried), sample);
     }
-    return {wo, Rgb(0.0f), 0.0f, 0.0f};
+    return sample;
 }
 
 } // namespace fast

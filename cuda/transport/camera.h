@@ -4,7 +4,7 @@
 // and its cosines are those of docs/bdpt.md, section 1. Only the product W_e cos is needed here. It is
 // the density of eye walks: pdf_solid_angle.
 
-#include "cuda/parallel/vec.h"
+#include "cuda/parallel/number.h"
 
 namespace fast {
 
@@ -16,14 +16,20 @@ struct Camera {
     std::uint32_t width, height;
 
     /// The unit direction seen through the film point (x, y), in pixels from the top left corner.
-    [[nodiscard]] HD Vec3 direction(float x, float y) const
+    template <class F>
+    [[nodiscard]] HD Vec3Of<F> direction(const F& x, const F& y) const
     {
-        return glm::normalize((x - 0.5f * static_cast<float>(width)) * pixel_size * right +
-                              (0.5f * static_cast<float>(height) - y) * pixel_size * up - backward);
+        return glm::normalize((x - 0.5f * static_cast<float>(width)) * pixel_size * Vec3Of<F>(right) +
+                              (0.5f * static_cast<float>(height) - y) * pixel_size * Vec3Of<F>(up) -
+                              Vec3Of<F>(backward));
     }
 
     /// Cosine between the unit direction `w` from the eye and the viewing direction.
-    [[nodiscard]] HD float cosine(const Vec3& w) const { return -glm::dot(w, backward); }
+    template <class F>
+    [[nodiscard]] HD F cosine(const Vec3Of<F>& w) const
+    {
+        return -glm::dot(w, Vec3Of<F>(backward));
+    }
 
     /// Whether direction `w` from the eye is inside the picture; if so, sets `pixel` to the pixel that
     /// shows it.
@@ -41,7 +47,8 @@ struct Camera {
     }
 
     /// The density (sr^-1) with which eye walks over the whole film start in such a direction.
-    [[nodiscard]] HD float pdf_solid_angle(float cosine_w) const
+    template <class F>
+    [[nodiscard]] HD F pdf_solid_angle(const F& cosine_w) const
     {
         return 1.0f / (film_area * cosine_w * cosine_w * cosine_w);
     }

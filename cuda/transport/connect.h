@@ -17,17 +17,27 @@
 namespace fast {
 
 /// An eye vertex z_{t-1} that can be joined: on a Lambertian surface.
-struct EyeVertex {
+template <class F>
+struct EyeVertexOf {
     int t;
-    SurfacePoint point;
-    Vec3 facing;
-    Rgb alpha;           // BSDF included
-    float pdf_projected; // as in LightVertex
-    float pdf_area;      // as in LightVertex
-    float brackets[5];   // WalkVertex::bracket for s = 1, 2, 3, 4, and 5 or more
+    SurfacePointOf<F> point;
+    Vec3Of<F> facing;
+    Vec3Of<F> alpha;   // BSDF included
+    F pdf_projected;   // as in LightVertex
+    F pdf_area;        // as in LightVertex
+    float brackets[5]; // WalkVertex::bracket for s = 1, 2, 3, 4, and 5 or more; path tracing needs none
 
     /// B of docs/cuda-bdpt.md, equation (4), for a join to a light walk of s >= 1 vertices.
     [[nodiscard]] HD float bracket(int s) const { return brackets[glm::min(s, 5) - 1]; }
+};
+using EyeVertex = EyeVertexOf<float>;
+
+/// A contribution that counts unless its ray is occluded.
+template <class F>
+struct CandidateOf {
+    RayOf<F> ray;
+    Vec3Of<F> value;
+    F weight;
 };
 
 /// Whether no surface lies between two points that have been moved off their surfaces.
@@ -70,38 +80,58 @@ HD void emission_hit(const PathOptions& options, const Emitter& emitter, int t, 
     sink.add(0, t, alpha * emitter.emitted, weight);
 }
 
-/// s = 1: z_{t-1} is joined to a fresh point of an emitter.
+/// s = 1: z_{t-1} is joined to a fresh point of an emitter, drawn by `u`. Sets `candidate`, and returns
+/// where there is one.
+template <Needs needs, Integrator integrator, class F>
+HD MaskOf<F> next_event_candidate(const SceneView<needs>& scene, const PathOptions& options,
+                                  const UniformsOf<F>& u, const EyeVertexOf<F>& z, MaskOf<F> active,
+                                  CandidateOf<F>& candidate)
+{
+    const IncidentLightOf<F> light = sample_incident(scene, z.point.position, u, active);
+    const F cosine = glm::dot(z.facing, light.wi);
+    candidate.value = z.alpha * cosine * light.alpha;
+    active = active && cosine > 0.0f && !is_black(candidate.value);
+    if (none(active)) return active;
+    const EmitterOf<F>& emitter = at(scene.emitters, light.emitter);
+    const MaskOf<F> surface = is_surface<needs>(emitter);
+    active = active && (!surface || sees_first(scene, light.end, -light.wi, active && surface));
+    candidate.ray.origin = leave_to_side(z.point, z.facing);
+    candidate.ray.t_max = 1.0f;
+    candidate.ray.direction = light.target - candidate.ray.origin;
+    if constexpr (needs.other_lights) {
+        const MaskOf<F> infinite = at_infinity<needs>(emitter);
+        candidate.ray.t_max =
+            select(infinite, F(std::numeric_limits<float>::infinity()), candidate.ray.t_max);
+        candidate.ray.direction = select(infinite, light.wi, candidate.ray.direction);
+        if (!scene.contact_triangles.empty())
+            one_by_one(active && !surface, [&](auto lane) {
+                const EndContacts& contacts = scene.lights[lane_of(light.emitter, lane)].contacts;
+                if (lies_on(scene, contacts, lane_of(z.point.primitive, lane)))
+                    put_lane(active, lane, false);
+            });
+    }
+    // The density of y_0 for the eye walk, in the measure of pdf_position.
+    const F pdf_rev =
+        select(can_be_hit<needs>(emitter), z.pdf_projected * cosine * light.geometry, F(0.0f));
+    if constexpr (integrator == Integrator::path)
+        candidate.weight = path_next_event_weight(pdf_rev, light.pdf_position);
+    else
+        candidate.weight =
+            next_event_weight(options.heuristic, light.pdf_position, pdf_rev,
+                              {z.pdf_area, light.pdf_rev_area_across * cosine, z.bracket(1)});
+    return active;
+}
+
+/// s = 1, with the test of its ray.
 template <Needs needs, Integrator integrator, class Sink>
 HD void next_event(const SceneView<needs>& scene, const PathOptions& options, const SampleId& id,
                    const EyeVertex& z, Sink& sink)
 {
-    IncidentLight light{};
+    CandidateOf<float> candidate;
     const Uniforms u = uniforms(id, Event::next_event, static_cast<std::uint32_t>(z.t - 1));
-    if (!sample_incident(scene, z.point.position, u, light)) return;
-    const float cosine = glm::dot(z.facing, light.wi);
-    const Rgb value = z.alpha * cosine * light.alpha;
-    if (!(cosine > 0.0f) || is_black(value)) return;
-    const Vec3 from = leave_to_side(z.point, z.facing);
-    const Emitter& emitter = scene.emitters[light.emitter];
-    if (is_surface<needs>(emitter)
-            ? !sees_first(scene, light.end, -light.wi)
-            : lies_on(scene, scene.lights[light.emitter].contacts, z.point.primitive))
-        return;
-    if (at_infinity<needs>(emitter)
-            ? occluded(scene.geometry, {from, std::numeric_limits<float>::infinity(), light.wi})
-            : !visible(scene, from, light.target))
-        return;
-    // The density of y_0 for the eye walk, in the measure of pdf_position.
-    const float pdf_rev = can_be_hit<needs>(emitter) ? z.pdf_projected * cosine * light.geometry : 0.0f;
-    float weight = 0.0f;
-    if constexpr (integrator == Integrator::path) {
-        weight = path_next_event_weight(pdf_rev, light.pdf_position);
-    } else {
-        const float pdf_rev_area_z = light.pdf_rev_area_across * cosine;
-        weight = next_event_weight(options.heuristic, light.pdf_position, pdf_rev,
-                                   {z.pdf_area, pdf_rev_area_z, z.bracket(1)});
-    }
-    sink.add(1, z.t, value, weight);
+    if (next_event_candidate<needs, integrator, float>(scene, options, u, z, true, candidate) &&
+        !occluded(scene.geometry, candidate.ray))
+        sink.add(1, z.t, candidate.value, candidate.weight);
 }
 
 /// t = 1: y_{s-1}, at `point`, is joined to the pinhole. `facing`: its normal on the side that sends
@@ -120,7 +150,7 @@ HD void light_image(const SceneView<needs>& scene, const PathOptions& options, i
     std::uint32_t pixel = 0;
     if (!(cosine > 0.0f) || is_black(alpha) || !scene.camera.project(-w, pixel)) return;
     if (lies_on(scene, scene.eye_contacts, point.primitive)) return;
-    if (s == 1 && !sees_first(scene, point, w)) return;
+    if (s == 1 && !sees_first(scene, point, w, true)) return;
     if (!visible(scene, leave_to_side(point, facing),
                  leave_end(scene, scene.camera.eye, scene.eye_contacts, -w,
                            distance2 * std::sqrt(inverse_distance2))))

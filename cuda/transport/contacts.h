@@ -11,15 +11,16 @@ namespace fast {
 /// The start of a ray that leaves an end of a path in `direction`: beyond the surfaces that the end
 /// lies on, so that the ray does not hit them. It is also the end of a segment of that `length` that
 /// comes to the path end from there.
-template <Needs needs>
-HD Vec3 leave_end(const SceneView<needs>& scene, const Vec3& position, const EndContacts& contacts,
-                  const Vec3& direction, float length = 0.0f)
+template <Needs needs, class F>
+HD Vec3Of<F> leave_end(const SceneView<needs>& scene, const Vec3& position, const EndContacts& contacts,
+                       const Vec3Of<F>& direction, const F& length = F(0.0f))
 {
-    Vec3 origin = position;
+    Vec3Of<F> origin(position);
     for (std::uint32_t i = 0; i < contacts.plane_count; ++i) {
         const ContactPlane& plane = scene.contact_planes[contacts.first_plane + i];
-        const float clearance = glm::max(0.0f, plane.clearance + clearance_per_length * length);
-        origin += (glm::dot(direction, plane.normal) < 0.0f ? -clearance : clearance) * plane.push;
+        const F clearance = greater(F(0.0f), plane.clearance + clearance_per_length * length);
+        origin += select(glm::dot(direction, Vec3Of<F>(plane.normal)) < 0.0f, -clearance, clearance) *
+                  Vec3Of<F>(plane.push);
     }
     return origin;
 }
@@ -85,11 +86,16 @@ SELDOM HD Hit first_of_several(const SceneView<needs>& scene, const Ray& ray, co
     return first;
 }
 
-/// The same for any hit.
-template <Needs needs>
-HD Hit first_of_coincident(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
+/// The same for any hit, where `active`.
+template <Needs needs, class F>
+HD HitOf<F> first_of_coincident(const SceneView<needs>& scene, const RayOf<F>& ray, HitOf<F> hit,
+                                const MaskOf<F>& active)
 {
-    return scene.surfaces[hit.primitive].contacts == 0 ? hit : first_of_several(scene, ray, hit);
+    if (scene.coincident.empty()) return hit;
+    one_by_one(active && at(scene.surfaces, hit.primitive).contacts != WordOf<F>(0u), [&](auto lane) {
+        put_lane(hit, lane, first_of_several(scene, lane_of(ray, lane), lane_of(hit, lane)));
+    });
+    return hit;
 }
 
 /// See sees_first.
@@ -113,17 +119,25 @@ SELDOM HD bool sees_first_of_several(const SceneView<needs>& scene, const Surfac
                                                       std::numeric_limits<float>::infinity(), hit)))
             return false;
     }
-    return first_of_coincident(scene, ray, Hit{away, point.primitive, 0, 0}).primitive ==
-           point.primitive;
+    return first_of_coincident<needs, float>(scene, ray, Hit{away, point.primitive, 0, 0}, true)
+               .primitive == point.primitive;
 }
 
 /// Whether a ray that comes from direction `towards` (unit length) sees the surface at `point`, and
 /// not another surface that coincides with it or lies so close over it that a segment to the point may
 /// end between them.
-template <Needs needs>
-HD bool sees_first(const SceneView<needs>& scene, const SurfacePoint& point, const Vec3& towards)
+/// Where not `active` the result has no meaning.
+template <Needs needs, class F>
+HD MaskOf<F> sees_first(const SceneView<needs>& scene, const SurfacePointOf<F>& point,
+                        const Vec3Of<F>& towards, const MaskOf<F>& active)
 {
-    return scene.surfaces[point.primitive].contacts == 0 || sees_first_of_several(scene, point, towards);
+    MaskOf<F> first = true;
+    if (scene.coincident.empty()) return first;
+    one_by_one(active && at(scene.surfaces, point.primitive).contacts != WordOf<F>(0u), [&](auto lane) {
+        put_lane(first, lane,
+                 sees_first_of_several(scene, lane_of(point, lane), lane_of(towards, lane)));
+    });
+    return first;
 }
 
 } // namespace fast

@@ -28,13 +28,13 @@ HD SampledEmission sample_emission(const SceneView<needs>& scene, const Uniforms
     emission.emitter = choose_emitter(scene, position[0]);
     const Emitter& emitter = scene.emitters[emission.emitter];
     if (is_surface<needs>(emitter)) {
-        emission.end = sample_surface(scene, emitter, position[1], position[2]);
+        emission.end = sample_surface(scene, emitter, position[1], position[2], true);
         const Vec3 w_local = sample_cosine_hemisphere(direction[0], direction[1]);
         const Vec3 w = glm::normalize(Frame(emission.end.normal).to_world(w_local));
         emission.ray = {leave_surface(emission.end, w), infinity, w};
         emission.pdf_direction = glm::max(0.0f, glm::dot(emission.end.normal, w)) * inverse_pi;
         // L cos / (p_A cos / pi); none where another emitter covers this one
-        if (sees_first(scene, emission.end, w))
+        if (sees_first(scene, emission.end, w, true))
             emission.alpha = emitter.emitted * (pi * emitter.area / emitter.probability);
         return emission;
     }

@@ -26,13 +26,15 @@ namespace fast {
 using scenes::EmitterKind;
 
 /// One emitter. Lengths are those of the scaled scene (scene_view.h).
-struct Emitter {
-    EmitterKind kind;
-    std::uint32_t index; // in the scene, among its kind; of triangles and spheres: the primitive
-    float area;          // of a surface; else 0
-    float probability;   // of being chosen (emitter_choice.h)
-    Rgb emitted;         // radiance; intensity of a source; irradiance of a directional light
+template <class F>
+struct EmitterOf {
+    KindOf<F, EmitterKind> kind;
+    WordOf<F> index;   // in the scene, among its kind; of triangles and spheres: the primitive
+    F area;            // of a surface; else 0
+    F probability;     // of being chosen (emitter_choice.h)
+    Vec3Of<F> emitted; // radiance; intensity of a source; irradiance of a directional light
 };
+using Emitter = EmitterOf<float>;
 
 /// The surfaces that an end of paths lies on which is not a surface itself (the eye, a source): ranges
 /// of SceneView::contact_planes and contact_triangles, mostly empty.
@@ -153,23 +155,23 @@ inline double power_of_environment(const scenes::Rgb& radiance, double disc_area
 
 // ---- The three classes, and which kind is in which. Without other lights every emitter is a triangle.
 
-template <Needs needs>
-HD bool is_surface(const Emitter& emitter)
+template <Needs needs, class F>
+HD MaskOf<F> is_surface(const EmitterOf<F>& emitter)
 {
     if constexpr (!needs.other_lights) return true;
     return emitter.kind == EmitterKind::triangle || emitter.kind == EmitterKind::sphere;
 }
 
-template <Needs needs>
-HD bool at_infinity(const Emitter& emitter)
+template <Needs needs, class F>
+HD MaskOf<F> at_infinity(const EmitterOf<F>& emitter)
 {
     if constexpr (!needs.other_lights) return false;
     return emitter.kind == EmitterKind::directional || emitter.kind == EmitterKind::environment;
 }
 
 /// Whether the eye walk can hit the emitter, and a pinhole see it.
-template <Needs needs>
-HD bool can_be_hit(const Emitter& emitter)
+template <Needs needs, class F>
+HD MaskOf<F> can_be_hit(const EmitterOf<F>& emitter)
 {
     if constexpr (!needs.other_lights) return true;
     return is_surface<needs>(emitter) || emitter.kind == EmitterKind::environment;
@@ -249,9 +251,10 @@ HD inline Vec3 sample_towards(const Emitter& emitter, const Light& light, float 
 }
 
 /// Its density: per solid angle, or 1, a probability, where the direction is certain.
-HD inline float pdf_towards(const Emitter& emitter)
+template <class F>
+HD F pdf_towards(const EmitterOf<F>& emitter)
 {
-    return emitter.kind == EmitterKind::environment ? pdf_solid_angle_sphere : 1.0f;
+    return select(emitter.kind == EmitterKind::environment, F(pdf_solid_angle_sphere), F(1.0f));
 }
 
 } // namespace fast

@@ -9,20 +9,19 @@
 namespace fast {
 
 /// The ray from the eye through a random point of the pixel of `id`.
-template <Needs needs>
-HD Leg camera_leg(const SceneView<needs>& scene, const SampleId& id)
+template <Needs needs, class F>
+HD LegOf<F> camera_leg(const SceneView<needs>& scene, const SampleIdOf<F>& id)
 {
-    const std::uint32_t column = id.pixel % scene.camera.width;
-    const std::uint32_t row = id.pixel / scene.camera.width;
-    const Uniforms u = uniforms(id, Event::camera);
-    const Vec3 direction =
-        scene.camera.direction(static_cast<float>(column) + u[0], static_cast<float>(row) + u[1]);
-    return {{leave_end(scene, scene.camera.eye, scene.eye_contacts, direction),
-             std::numeric_limits<float>::infinity(), direction},
-            scene.camera.eye,
+    const UniformsOf<F> u = uniforms(id, Event::camera);
+    WordOf<F> column;
+    const WordOf<F> row = divided(id.pixel, scene.camera.width, column);
+    const Vec3Of<F> direction = scene.camera.direction(to_float(column) + u[0], to_float(row) + u[1]);
+    return {{leave_end<needs, F>(scene, scene.camera.eye, scene.eye_contacts, direction),
+             F(std::numeric_limits<float>::infinity()), direction},
+            Vec3Of<F>(scene.camera.eye),
             false,
             scene.camera.pdf_solid_angle(scene.camera.cosine(direction)),
-            0.0f};
+            F(0.0f)};
 }
 
 /// The data that connections need of `v`, which is on a Lambertian surface. Path tracing needs no

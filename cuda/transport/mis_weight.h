@@ -100,7 +100,8 @@ HD inline float sum_of_others(Heuristic heuristic, const SubpathEnd& end)
 
 /// The weight of a strategy, 0 ... 1. S is the sum over the strategies with fewer light vertices, T over
 /// those with more.
-HD inline float weight_of_sums(float S, float T)
+template <class F>
+HD F weight_of_sums(const F& S, const F& T)
 {
     return 1.0f / (1.0f + S + T); // (5); [Georgiev 2012, eq. 37]
 }
@@ -135,21 +136,25 @@ HD inline float inner_connection_weight(Heuristic heuristic, const SubpathEnd& y
 /// Path tracing has two strategies for a path, emission hit and next event, and uses the balance
 /// heuristic. Returns the weight of the strategy with density `pdf`, where the other has `pdf_other`,
 /// both in the same measure.
-HD inline float balance_of_two(float pdf, float pdf_other)
+template <class F>
+HD F balance_of_two(const F& pdf, const F& pdf_other)
 {
-    return weight_of_sums(0.0f, pdf_other / pdf); // (6); [Veach 1997, sec. 9.2.2]
+    return weight_of_sums(F(0.0f), pdf_other / pdf); // (6); [Veach 1997, sec. 9.2.2]
 }
 
 /// Path tracing, s = 0: `pdf_hit` is the density of the emission hit, > 0, and `pdf_next_event` that
 /// of a next event at the vertex before, per area of the emitter (per solid angle for the
 /// environment). `previous_joinable`: whether there is a next event at that vertex at all.
-HD inline float path_emission_hit_weight(bool previous_joinable, float pdf_hit, float pdf_next_event)
+template <class F>
+HD F path_emission_hit_weight(const MaskOf<F>& previous_joinable, const F& pdf_hit,
+                              const F& pdf_next_event)
 {
-    return previous_joinable ? balance_of_two(pdf_hit, pdf_next_event) : 1.0f; // (6)
+    return select(previous_joinable, balance_of_two(pdf_hit, pdf_next_event), F(1.0f)); // (6)
 }
 
 /// Path tracing, s = 1. The densities are as above; `pdf_hit` is 0 if the emitter cannot be hit.
-HD inline float path_next_event_weight(float pdf_hit, float pdf_next_event)
+template <class F>
+HD F path_next_event_weight(const F& pdf_hit, const F& pdf_next_event)
 {
     return balance_of_two(pdf_next_event, pdf_hit); // (6)
 }

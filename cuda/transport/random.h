@@ -4,7 +4,7 @@
 // library. The counter blocks are those of the reference (key: seed; counter: pixel, sample, event and
 // vertex, 0), so that a sample makes the same decisions here as there.
 
-#include "cuda/parallel/host_device.h"
+#include "cuda/parallel/number.h"
 
 #include <Random123/philox.h>
 
@@ -24,17 +24,21 @@ enum class Event : std::uint32_t {
 
 /// Four numbers in [0, 1): the highest 24 bits of each word, which a float holds exactly. Each is less
 /// than 2^-24 below the number that the reference makes from all 32 bits.
-struct Uniforms {
-    float u[4];
-    HD float operator[](int i) const { return u[i]; }
+template <class F>
+struct UniformsOf {
+    F u[4];
+    HD const F& operator[](int i) const { return u[i]; }
 };
+using Uniforms = UniformsOf<float>;
 
 /// Identifies one sample of one pixel of one picture.
-struct SampleId {
+template <class F>
+struct SampleIdOf {
     std::uint64_t seed;
-    std::uint32_t pixel; // y * width + x
-    std::uint32_t sample;
+    WordOf<F> pixel; // y * width + x
+    WordOf<F> sample;
 };
+using SampleId = SampleIdOf<float>;
 
 /// The random numbers of `event` at vertex `j` (0 <= j < 2^24; 0 for events that have no vertex).
 HD inline Uniforms uniforms(const SampleId& id, Event event, std::uint32_t j = 0)

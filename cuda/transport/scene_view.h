@@ -26,14 +26,16 @@ struct ContactPlane {
 
 /// The data of a primitive that shading needs. They are read at every vertex of a walk, so they fit in
 /// one cache line.
-struct alignas(32) Surface {
-    std::uint32_t material;
-    std::uint32_t emitter;      // or no_emitter
-    float clearance = 0;        // triangle_clearance or sphere_clearance
-    float edge_margin = 0;      // of a triangle
-    Vec3 normal = {};           // of a triangle, unit length
-    std::uint32_t contacts = 0; // of SceneView::surface_contacts
+template <class F>
+struct alignas(8 * sizeof(F)) SurfaceOf {
+    WordOf<F> material;
+    WordOf<F> emitter;                  // or no_emitter
+    F clearance = 0.0f;                 // triangle_clearance or sphere_clearance
+    F edge_margin = 0.0f;               // of a triangle
+    Vec3Of<F> normal = Vec3Of<F>(0.0f); // of a triangle, unit length
+    WordOf<F> contacts = 0u;            // of SceneView::surface_contacts
 };
+using Surface = SurfaceOf<float>;
 static_assert(sizeof(Surface) == 32);
 
 /// Two adjacent ranges of SceneView::coincident: the surfaces that coincide with this one as floats, and
@@ -72,30 +74,35 @@ struct SceneView {
 };
 
 /// A point on a surface.
-struct SurfacePoint {
-    Vec3 position;
-    Vec3 normal; // unit, geometric: by winding for a triangle, outward for a sphere
-    float
-        clearance; // the distance from the surface, along the normal, at which rays begin (clearance.h)
-    std::uint32_t primitive;
+template <class F>
+struct SurfacePointOf {
+    Vec3Of<F> position;
+    Vec3Of<F> normal; // unit, geometric: by winding for a triangle, outward for a sphere
+    F clearance;      // the distance from the surface, along the normal, at which rays begin
+                      // (clearance.h)
+    WordOf<F> primitive;
 };
+using SurfacePoint = SurfacePointOf<float>;
 
 /// The origin of a ray that leaves `point` in `direction` (of any length) and does not hit the same
 /// surface again.
-HD inline Vec3 leave_surface(const SurfacePoint& point, const Vec3& direction)
+template <class F>
+HD Vec3Of<F> leave_surface(const SurfacePointOf<F>& point, const Vec3Of<F>& direction)
 {
     return leave_surface(point.position, point.normal, point.clearance, direction);
 }
 
 /// The same on the side of `facing`, which is the normal or its opposite.
-HD inline Vec3 leave_to_side(const SurfacePoint& point, const Vec3& facing)
+template <class F>
+HD Vec3Of<F> leave_to_side(const SurfacePointOf<F>& point, const Vec3Of<F>& facing)
 {
     return point.position + point.clearance * facing;
 }
 
 /// The end of a segment of that `length` that comes to `point` from the side of `facing`, which is the
 /// normal or its opposite.
-HD inline Vec3 end_at_surface(const SurfacePoint& point, const Vec3& facing, float length)
+template <class F>
+HD Vec3Of<F> end_at_surface(const SurfacePointOf<F>& point, const Vec3Of<F>& facing, const F& length)
 {
     return point.position + (point.clearance + clearance_per_length * length) * facing;
 }

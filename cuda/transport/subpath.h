@@ -18,14 +18,30 @@ struct PathOptions {
 };
 
 /// The step from one vertex to the next.
-struct Leg {
-    Ray ray;
-    Vec3 from;             // the vertex that the ray leaves, unless at infinity
-    bool from_infinity;    // then the distance does not matter
-    float pdf_direction;   // of the ray, roulette included: per solid angle (for a
-                           // delta lobe as in BsdfSample); from infinity per area across the ray
-    float cosine_over_pdf; // cosine at the start vertex over pdf_fwd there (mis_weight.h); 0 if
-                           // the other walk cannot reach that vertex
+template <class F>
+struct LegOf {
+    RayOf<F> ray;
+    Vec3Of<F> from;          // the vertex that the ray leaves, unless at infinity
+    MaskOf<F> from_infinity; // then the distance does not matter
+    F pdf_direction;         // of the ray, roulette included: per solid angle (for a
+                             // delta lobe as in BsdfSample); from infinity per area across the ray
+    F cosine_over_pdf;       // cosine at the start vertex over pdf_fwd there (mis_weight.h); 0 if
+                             // the other walk cannot reach that vertex
+};
+using Leg = LegOf<float>;
+
+/// The surface that a leg leads to, seen from there.
+template <class F>
+struct MetSurfaceOf {
+    SurfacePointOf<F> point;
+    Vec3Of<F> wo;       // unit, against the ray
+    Vec3Of<F> wo_local; // in the frame of the normal
+    Vec3Of<F> facing;   // the normal on the side of wo
+    F cosine;           // of wo and `facing`
+    MaterialOf<F> material;
+    WordOf<F> emitter; // or no_emitter
+    F inverse_distance2;
+    F pdf_area; // the density with which the walk samples the point; 0 in the plane of the surface
 };
 
 /// A vertex v_n of a walk on a surface.
@@ -55,9 +71,50 @@ struct WalkVertex {
 };
 
 /// The probability that a walk goes on from its n-th bounce.
-HD inline float chance_of(const Material& material, int n)
+template <class F>
+HD F chance_of(const MaterialOf<F>& material, int n)
 {
-    return n > bounces_without_roulette ? material.survival : 1.0f;
+    return n > bounces_without_roulette ? material.survival : F(1.0f);
+}
+
+/// The surface at `hit` of the leg's ray, where `active`. Elsewhere the hit must name some primitive.
+template <Needs needs, class F>
+HD MetSurfaceOf<F> meet_surface(const SceneView<needs>& scene, const LegOf<F>& leg, HitOf<F> hit,
+                                const MaskOf<F>& active)
+{
+    MetSurfaceOf<F> met;
+    hit = first_of_coincident<needs, F>(scene, leg.ray, hit, active);
+    met.point = surface_point<needs, F>(scene, leg.ray, hit);
+    const SurfaceOf<F>& surface = at(scene.surfaces, met.point.primitive);
+    met.emitter = surface.emitter;
+    met.material = at(scene.materials, surface.material);
+    met.wo = -leg.ray.direction;
+    met.wo_local = FrameOf<F>(met.point.normal).to_local(met.wo);
+    met.facing = select(met.wo_local.z < 0.0f, -met.point.normal, met.point.normal);
+    met.cosine = magnitude_of(met.wo_local.z);
+    const Vec3Of<F> d = met.point.position - leg.from;
+    met.inverse_distance2 = select(leg.from_infinity, F(1.0f), 1.0f / glm::dot(d, d));
+    met.pdf_area = to_area(leg.pdf_direction, met.cosine, met.inverse_distance2);
+    return met;
+}
+
+/// The n-th bounce of a walk, at `met`: draws the next leg by `u`. `pdf_rev`: see BsdfSample. Returns
+/// where roulette lets the walk go on. Sets `leg`, and multiplies `alpha`.
+template <Needs needs, class F>
+HD MaskOf<F> bounce(const MetSurfaceOf<F>& met, int n, const UniformsOf<F>& u, Transport carried,
+                    LegOf<F>& leg, Vec3Of<F>& alpha, F& pdf_rev)
+{
+    const BsdfSampleOf<F> sample = sample_bsdf<needs.specular>(met.material, met.wo_local, u, carried);
+    const F chance = chance_of(met.material, n);
+    const Vec3Of<F> wi = glm::normalize(FrameOf<F>(met.point.normal).to_world(sample.wi_local));
+    leg = {{leave_surface(met.point, wi), F(std::numeric_limits<float>::infinity()), wi},
+           met.point.position,
+           false,
+           sample.pdf_fwd * chance,
+           magnitude_of(sample.wi_local.z) / met.pdf_area};
+    alpha *= sample.value / chance;
+    pdf_rev = sample.pdf_rev;
+    return u[3] < chance;
 }
 
 /// Follows `leg` and its bounces, at most to v_{most_vertices - 1}, and calls on_surface(vertex) for
@@ -84,44 +141,24 @@ HD void walk(const SceneView<needs>& scene, const PathOptions& options, const Sa
                 sums.advance(joinable, pdf_rev_solid_angle, survival, geometry_over_pdf,
                              options.heuristic);
         };
-        Hit hit = intersect(scene.geometry, leg.ray);
+        const Hit hit = intersect(scene.geometry, leg.ray);
         if (hit.primitive == no_primitive) {
             carry_sums(leg.cosine_over_pdf);
             on_miss(leg, n, alpha, previous_joinable, sums);
             return;
         }
-        hit = first_of_coincident(scene, leg.ray, hit);
-        const SurfacePoint point = surface_point(scene, leg.ray, hit);
-        const Surface surface = scene.surfaces[point.primitive];
-        const Material material = scene.materials[surface.material];
-        const Frame frame(point.normal);
-        const Vec3 wo = -leg.ray.direction;
-        const Vec3 wo_local = frame.to_local(wo);
-        const float cosine = std::abs(wo_local.z);
-        const Vec3 d = point.position - leg.from;
-        const float inverse_distance2 = leg.from_infinity ? 1.0f : 1.0f / glm::dot(d, d);
-        const float pdf_area = to_area(leg.pdf_direction, cosine, inverse_distance2);
-        if (!(pdf_area > 0.0f)) return; // in the plane of the surface: the density is 0
-        carry_sums(leg.cosine_over_pdf * inverse_distance2);
-        on_surface(WalkVertex{point, wo, wo_local.z < 0.0f ? -point.normal : point.normal, cosine,
-                              material, surface.emitter, n, alpha, previous_joinable, pdf_area, sums});
+        const MetSurfaceOf<float> met = meet_surface<needs, float>(scene, leg, hit, true);
+        if (!(met.pdf_area > 0.0f)) return; // in the plane of the surface: the density is 0
+        carry_sums(leg.cosine_over_pdf * met.inverse_distance2);
+        on_surface(WalkVertex{met.point, met.wo, met.facing, met.cosine, met.material, met.emitter, n,
+                              alpha, previous_joinable, met.pdf_area, sums});
         if (n + 1 == most_vertices) return;
 
         const Uniforms u = uniforms(id, event, static_cast<std::uint32_t>(n));
-        const BsdfSample sample = sample_bsdf<needs.specular>(material, wo_local, u, carried);
-        const float chance = chance_of(material, n);
-        if (u[3] >= chance) return;
-        const Vec3 wi = glm::normalize(frame.to_world(sample.wi_local));
-        leg = {{leave_surface(point, wi), std::numeric_limits<float>::infinity(), wi},
-               point.position,
-               false,
-               sample.pdf_fwd * chance,
-               std::abs(sample.wi_local.z) / pdf_area};
-        alpha *= sample.value / chance;
-        joinable = previous_joinable && scatters(material);
-        previous_joinable = scatters(material);
-        pdf_rev_solid_angle = sample.pdf_rev;
-        survival = material.survival;
+        if (!bounce<needs, float>(met, n, u, carried, leg, alpha, pdf_rev_solid_angle)) return;
+        joinable = previous_joinable && scatters(met.material);
+        previous_joinable = scatters(met.material);
+        survival = met.material.survival;
     }
 }
 

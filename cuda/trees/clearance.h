@@ -53,7 +53,7 @@
 // it is an angle of about 4 u times the ratio of the triangle's longest edge to its smallest height.
 // For a direction closer to the surface than that angle, the side to which it points is unknown.
 
-#include "cuda/parallel/vec.h"
+#include "cuda/parallel/number.h"
 #include "cuda/trees/rounding.h"
 
 namespace fast {
@@ -95,23 +95,25 @@ inline float edge_margin(const Vec3& v0, const Vec3& e1, const Vec3& e2)
 
 /// Moves the point with weights b1 and b2 of the second and third vertex off the edges. Afterwards no
 /// weight is less than `margin` times the factor that makes the sum of the weights 1 again.
-HD inline void move_off_edges(float margin, float& b1, float& b2)
+template <class F>
+HD void move_off_edges(const F& margin, F& b1, F& b2)
 {
-    float b0 = 1.0f - b1 - b2;
-    if (glm::min(b0, glm::min(b1, b2)) >= margin) return;
-    b0 = glm::max(b0, margin);
-    b1 = glm::max(b1, margin);
-    b2 = glm::max(b2, margin);
-    const float to_unit = 1.0f / (b0 + b1 + b2);
-    b1 *= to_unit;
-    b2 *= to_unit;
+    const F b0 = 1.0f - b1 - b2;
+    const MaskOf<F> near = !(lesser(b0, lesser(b1, b2)) >= margin);
+    if (none(near)) return;
+    const F moved1 = greater(b1, margin);
+    const F moved2 = greater(b2, margin);
+    const F to_unit = 1.0f / (greater(b0, margin) + moved1 + moved2);
+    b1 = select(near, moved1 * to_unit, b1);
+    b2 = select(near, moved2 * to_unit, b2);
 }
 
 /// The distance from the surface, along the normal, at which rays must start that leave `position`.
 /// `own`: triangle_clearance or sphere_clearance of the surface.
-HD inline float clearance_at(const Vec3& position, const Vec3& normal, float own)
+template <class F>
+HD F clearance_at(const Vec3Of<F>& position, const Vec3Of<F>& normal, const F& own)
 {
-    return own + 2 * unit_roundoff * glm::dot(glm::abs(normal), glm::abs(position));
+    return own + 2 * unit_roundoff * glm::dot(magnitude_of(normal), magnitude_of(position));
 }
 
 /// The additional distance from the surface for the end of a segment, per unit of the segment's
@@ -122,10 +124,11 @@ constexpr float clearance_per_length = 24 * unit_roundoff;
 /// points to. `normal`: unit length, to either side. A ray that starts there and goes to that side
 /// cannot meet the surface that it leaves, nor one that coincides with it. The same holds for a
 /// segment that ends there, if the clearance is larger by clearance_per_length times its length.
-HD inline Vec3 leave_surface(const Vec3& position, const Vec3& normal, float clearance,
-                             const Vec3& direction)
+template <class F>
+HD Vec3Of<F> leave_surface(const Vec3Of<F>& position, const Vec3Of<F>& normal, const F& clearance,
+                           const Vec3Of<F>& direction)
 {
-    return position + (glm::dot(direction, normal) < 0 ? -clearance : clearance) * normal;
+    return position + select(glm::dot(direction, normal) < 0.0f, -clearance, clearance) * normal;
 }
 
 } // namespace fast

@@ -9,18 +9,22 @@
 namespace fast {
 
 /// The points origin + t * direction with 0 < t < t_max.
-struct Ray {
-    Vec3 origin;
-    float t_max;
-    Vec3 direction;
+template <class F>
+struct RayOf {
+    Vec3Of<F> origin;
+    F t_max;
+    Vec3Of<F> direction;
 };
+using Ray = RayOf<float>;
 
 /// The point where a ray hits a primitive; the primitive is no_primitive if there is no hit.
-struct Hit {
-    float t;
-    std::uint32_t primitive;
-    float b1, b2; // weights of the second and third vertex; 0 on a sphere
+template <class F>
+struct HitOf {
+    F t;
+    WordOf<F> primitive;
+    F b1, b2; // weights of the second and third vertex; 0 on a sphere
 };
+using Hit = HitOf<float>;
 
 /// Whether `a` is closer, or as close and of lower number: so the closest hit does not depend on the
 /// tree.

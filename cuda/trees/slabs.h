@@ -15,7 +15,6 @@
 // The padding is not added to the planes but subtracted from the origin, once for the planes at which
 // the ray enters and once for those at which it leaves. That sum is rounded by u |o + padding|, so
 // that 2 u |o| more is subtracted.
-// more is taken off: 2 u |o|.
 
 #include "cuda/trees/ray.h"
 #include "cuda/trees/rounding.h"
@@ -76,7 +75,7 @@ private:
     Vec3 leaving_;
 };
 
-/// The same for the four boxes of a wide node at once.
+/// The same for all boxes of a wide node at once.
 class WideSlabs {
 public:
     HD explicit WideSlabs(const Slabs& slabs)
@@ -91,14 +90,15 @@ public:
             reciprocal_[axis] = all_lanes(slabs.reciprocal_[axis]);
         }
     }
-    /// The ray is in a box from `near` to `far`; it misses the box if near > far.
-    HD void entries(const WideNode& node, float limit, Lanes& near, Lanes& far) const
+    /// The boxes that the ray is in at a t from 0 to `limit`; `near`: the smallest such t of each.
+    [[nodiscard]] HD LaneBits entered(const WideNode& node, float limit, Lanes& near) const
     {
         // In the plane of a face 0 * infinity is NaN. Then the second argument is taken, and the worst
         // effect is a visit to a box that could have been skipped.
         near = larger(larger(enter(node, 0), enter(node, 1)), larger(enter(node, 2), all_lanes(0)));
-        far =
+        const Lanes far =
             smaller(smaller(leave(node, 0), leave(node, 1)), smaller(leave(node, 2), all_lanes(limit)));
+        return not_above(near, far);
     }
 
 private:

@@ -32,10 +32,12 @@
 namespace fast {
 
 /// The points at `radius` >= 0 from `center`.
-struct Sphere {
-    Vec3 center;
-    float radius;
+template <class F>
+struct SphereOf {
+    Vec3Of<F> center;
+    F radius;
 };
+using Sphere = SphereOf<float>;
 
 /// Kernel over spheres: their boxes, rounded outwards. A sphere that is not finite gets a box that is
 /// not finite, and a negative radius gives an empty box; the tree build rejects both.
@@ -55,35 +57,42 @@ struct BoundSpheres {
 };
 
 /// If the ray crosses the sphere's surface, from either side, at 0 < t < `limit`: sets `t` to the
-/// smallest such t, and the weights to 0. Squares of lengths must be within the range of floats.
+/// smallest such t; else to any number. Squares of lengths must be within the range of floats.
 ///
 /// The textbook's discriminant b^2 - a c loses all digits for a small or distant sphere. So it is
 /// computed as r^2 - |l|^2, where l points from the centre to the nearest point of the ray's line. Of
 /// the two roots of a t^2 - 2 b t + c, the one that would suffer from cancellation is computed from
 /// their product c / a.
+template <class F>
+HD MaskOf<F> intersect_sphere(const RayOf<F>& ray, const SphereOf<F>& sphere, const F& limit, F& t)
+{
+    const Vec3Of<F> f = ray.origin - sphere.center;
+    const F a = glm::dot(ray.direction, ray.direction);
+    const F b = -glm::dot(f, ray.direction);
+    const Vec3Of<F> l = f + (b / a) * ray.direction;
+    const F r2 = sphere.radius * sphere.radius;
+    const F discriminant = r2 - glm::dot(l, l);
+    const MaskOf<F> crosses = discriminant >= 0.0f;
+    if (none(crosses)) return crosses;
+    const F c = glm::dot(f, f) - r2;
+    // Two separate roots: the product of their arguments would be the fourth power of a length.
+    const F root = square_root(a) * square_root(discriminant);
+    const F q = select(b < 0.0f, b - root, b + root);
+    const F t0 = c / q;
+    const F t1 = q / a;
+    const MaskOf<F> in_order = t0 < t1;
+    const F near = select(in_order, t0, t1);
+    const F far = select(in_order, t1, t0);
+    t = select(near > 0.0f, near, far);
+    return crosses && t > 0.0f && t < limit;
+}
+
+/// The same as a hit, whose weights are 0.
 HD inline bool intersect_sphere(const Ray& ray, const Sphere& sphere, float limit, Hit& hit)
 {
-    const Vec3 f = ray.origin - sphere.center;
-    const float a = glm::dot(ray.direction, ray.direction);
-    const float b = -glm::dot(f, ray.direction);
-    const Vec3 l = f + (b / a) * ray.direction;
-    const float r2 = sphere.radius * sphere.radius;
-    const float discriminant = r2 - glm::dot(l, l);
-    if (!(discriminant >= 0)) return false;
-    const float c = glm::dot(f, f) - r2;
-    // Two separate roots: the product of their arguments would be the fourth power of a length.
-    const float root = std::sqrt(a) * std::sqrt(discriminant);
-    const float q = b < 0 ? b - root : b + root;
-    const float t0 = c / q;
-    const float t1 = q / a;
-    const float near = t0 < t1 ? t0 : t1;
-    const float far = t0 < t1 ? t1 : t0;
-    const float t = near > 0 ? near : far;
-    if (!(t > 0 && t < limit)) return false;
-    hit.t = t;
     hit.b1 = 0;
     hit.b2 = 0;
-    return true;
+    return intersect_sphere<float>(ray, sphere, limit, hit.t);
 }
 
 } // namespace fast

@@ -4,6 +4,7 @@
 // anything. Primitives are numbered consecutively, first the triangles, then the spheres
 // (scenes::primitive_count).
 
+#include "cuda/trees/hploc.h"
 #include "cuda/trees/lbvh.h"
 #include "cuda/trees/sphere.h"
 #include "cuda/trees/traverse.h"
@@ -134,7 +135,11 @@ private:
         Aabb bounds = empty_aabb();
         for (const Aabb& box : on_host) bounds = unite(bounds, box);
         if (count > 0) diagonal_ = glm::length(bounds.upper - bounds.lower);
-        return {memory, executor, std::as_const(tree).nodes(), tree.primitives(), given.all()};
+        Hploc clustered(memory, count);
+        clustered.build(executor, boxes.all(), tree);
+        const bool fits = clustered.height() <= static_cast<std::uint32_t>(deepest_tree);
+        return {memory, executor, fits ? std::as_const(clustered).nodes() : std::as_const(tree).nodes(),
+                tree.primitives(), given.all()};
     }
 
     std::uint32_t triangle_count_;

@@ -2,27 +2,31 @@
 
 // The stack of a traversal.
 
-#include "cuda/trees/node.h"
+#include "cuda/trees/wide_node.h"
 
+#include <bit>
 #include <cstdint>
 
 namespace fast {
 
-/// Nodes and leaves that a ray has yet to visit, each with the t at which the ray enters its box.
+/// Nodes and leaves that a ray has yet to visit, each with the t >= 0 at which the ray enters its box.
 class TraversalStack {
 public:
     HD void push(std::uint32_t child, float entry)
     {
-        children_[height_] = child;
-        entries_[height_] = entry;
-        ++height_;
+        // The bits of floats >= 0 sort like the floats, so an element is compared as one number.
+        elements_[height_++] = std::uint64_t{std::bit_cast<std::uint32_t>(entry)} << 32 | child;
     }
-    /// The same without a branch: pushes only if `wanted`.
-    HD void push_if(bool wanted, std::uint32_t child, float entry)
+    /// Sorts the last `count` elements, so that the one of the smallest entry is on top.
+    HD void sort_last(int count)
     {
-        children_[height_] = child;
-        entries_[height_] = entry;
-        height_ += wanted ? 1 : 0;
+        for (int i = height_ - count + 1; i < height_; ++i) {
+            const std::uint64_t element = elements_[i];
+            int place = i;
+            for (; place > height_ - count && elements_[place - 1] < element; --place)
+                elements_[place] = elements_[place - 1];
+            elements_[place] = element;
+        }
     }
     /// Pops until an element has entry <= limit, and returns that one in `child`; false if there is
     /// none. An entry equal to the limit counts: the box may hold a primitive of lower number at the
@@ -30,20 +34,19 @@ public:
     HD bool pop(float limit, std::uint32_t& child)
     {
         while (height_ > 0) {
-            --height_;
-            child = children_[height_];
-            if (entries_[height_] <= limit) return true;
+            const std::uint64_t element = elements_[--height_];
+            child = static_cast<std::uint32_t>(element);
+            if (std::bit_cast<float>(static_cast<std::uint32_t>(element >> 32)) <= limit) return true;
         }
         return false;
     }
 
+    /// One step down a wide tree leaves all children but one on the stack. It may lead to a child that
+    /// is only one level deeper in the binary tree, because its siblings were opened.
+    static constexpr int most = (most_children - 1) * deepest_tree + most_children;
+
 private:
-    // One step down a binary tree leaves one child on the stack. One step down a wide tree leaves at
-    // most three, and may lead to a child that is only one level deeper in the binary tree, because its
-    // sibling was opened twice.
-    static constexpr int most = 3 * deepest_tree + 4;
-    std::uint32_t children_[most];
-    float entries_[most];
+    std::uint64_t elements_[most];
     int height_ = 0;
 };
 

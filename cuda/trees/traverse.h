@@ -19,36 +19,15 @@ struct NotCounted {
     HD void operator()() const {}
 };
 
-/// Sorts in ascending order by a network of five exchanges [Knuth 1998, sec. 5.3.4].
-HD inline void sort_four(std::uint32_t (&keys)[4])
-{
-    const auto order = [&](int i, int j) {
-        const std::uint32_t smaller = keys[i] < keys[j] ? keys[i] : keys[j];
-        const std::uint32_t larger = keys[i] < keys[j] ? keys[j] : keys[i];
-        keys[i] = smaller;
-        keys[j] = larger;
-    };
-    order(0, 1);
-    order(2, 3);
-    order(0, 2);
-    order(1, 3);
-    order(1, 2);
-}
-
-/// Calls test(group) for every group of triangles whose box the ray enters at a t <= limit, nearer
-/// children first. `test` returns the new limit: the t of the closest hit so far, or a negative number
-/// to stop. A tree that is one group is always tested. Calls count() for every node.
+/// Calls test(group) for every group of triangles at or below `next` whose box the ray enters at a t <=
+/// `limit`, nearer children first. `next`: a node, or a group with leaf_bit; its own box is not tested.
+/// `test` returns the new limit: the t of the closest hit so far, or a negative number to stop. Calls
+/// count() for every node.
 template <class Test, class Count = NotCounted>
-HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test, const Count& count = {})
+HD void traverse_below(const WideTreeView& tree, std::uint32_t next, const WideSlabs& slabs, float limit,
+                       const Test& test, const Count& count = {})
 {
-    if (tree.nodes.empty()) {
-        if (!tree.groups.empty()) test(0);
-        return;
-    }
-    const WideSlabs slabs{Slabs(ray, tree.bounds)};
-    float limit = ray.t_max;
     TraversalStack stack;
-    std::uint32_t next = 0;
     for (;;) {
         if (is_leaf(next)) {
             limit = test(next & ~leaf_bit);
@@ -58,20 +37,43 @@ HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test, con
         count();
         const WideNode& node = tree.nodes[next];
         Lanes near;
-        Lanes far;
-        slabs.entries(node, limit, near, far);
-        std::uint32_t keys[4];
-        sort_keys(near, far, keys);
-        sort_four(keys);
-        if (keys[0] == not_ordered) {
+        LaneBits entered = slabs.entered(node, limit, near);
+        if (entered == 0) {
             if (!stack.pop(limit, next)) return;
             continue;
         }
-        for (int i = 3; i >= 1; --i)
-            stack.push_if(keys[i] != not_ordered, node.children[keys[i] & 3],
-                          std::bit_cast<float>(keys[i] & ~3u));
-        next = node.children[keys[0] & 3];
+        // Most nodes have one or two children that the ray enters.
+        const int first = take_lane(entered);
+        next = node.children[first];
+        if (entered == 0) continue;
+        const int second = take_lane(entered);
+        if (entered == 0) {
+            const bool in_order = near[first] <= near[second];
+            stack.push(node.children[in_order ? second : first], near[in_order ? second : first]);
+            next = node.children[in_order ? first : second];
+            continue;
+        }
+        int pushed = 2;
+        stack.push(next, near[first]);
+        stack.push(node.children[second], near[second]);
+        for (; entered != 0; ++pushed) {
+            const int lane = take_lane(entered);
+            stack.push(node.children[lane], near[lane]);
+        }
+        stack.sort_last(pushed);
+        stack.pop(limit, next);
     }
+}
+
+/// The same for the whole tree. A tree that is one group is always tested.
+template <class Test, class Count = NotCounted>
+HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test, const Count& count = {})
+{
+    if (tree.nodes.empty()) {
+        if (!tree.groups.empty()) test(0);
+        return;
+    }
+    traverse_below(tree, 0, WideSlabs{Slabs(ray, tree.bounds)}, ray.t_max, test, count);
 }
 
 /// Kernel over rays.

@@ -2,6 +2,7 @@
 
 // Triangles and their boxes.
 
+#include "cuda/parallel/number.h"
 #include "cuda/trees/aabb.h"
 
 #include <cstdint>
@@ -10,9 +11,11 @@
 
 namespace fast {
 
-struct Triangle {
-    Vec3 vertices[3];
+template <class F>
+struct TriangleOf {
+    Vec3Of<F> vertices[3];
 };
+using Triangle = TriangleOf<float>;
 
 /// Kernel over triangles. Minimum and maximum would ignore a vertex that is NaN. So a triangle with
 /// NaN gets a box of NaN, and the tree build rejects it by its number.

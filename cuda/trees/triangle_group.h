@@ -1,10 +1,11 @@
 #pragma once
 
-// The leaves of a wide tree: up to four triangles, stored so that all of them are tested at once.
+// The leaves of a wide tree: up to eight triangles, stored so that all of them are tested at once.
 
 #include "cuda/parallel/lanes.h"
 #include "cuda/trees/intersect.h"
 #include "cuda/trees/rounding.h"
+#include "cuda/trees/wide_node.h"
 
 #include <cstdint>
 #include <limits>
@@ -13,8 +14,8 @@ namespace fast {
 
 /// Lane i holds triangle i, or NaN if there is no triangle i.
 struct alignas(32) TriangleGroup {
-    Lanes vertices[3][3];        // first, second, third vertex; x, y, z
-    std::uint32_t primitives[4]; // by lane; no_primitive in an empty lane
+    Lanes vertices[3][3];                    // first, second, third vertex; x, y, z
+    std::uint32_t primitives[most_in_group]; // by lane; no_primitive in an empty lane
 
     [[nodiscard]] HD Triangle triangle(int lane) const
     {
@@ -59,8 +60,7 @@ HD inline Lanes edges(const ShearedVertices& p, const ShearedVertices& q)
 /// intersect_triangle 2 u X^2 Z: together less than 16 u X^2 Z. An underflow has an error of less than
 /// the smallest normal number. An overflow counts as in front; but products of two lengths must be
 /// within the range of floats.
-/// products of two lengths must be within the range of floats.
-HD inline std::uint32_t may_hit(const ShearedRay& ray, const TriangleGroup& group)
+HD inline LaneBits may_hit(const ShearedRay& ray, const TriangleGroup& group)
 {
     const ShearedVertices A(ray, group.vertices[0]);
     const ShearedVertices B(ray, group.vertices[1]);
@@ -70,7 +70,7 @@ HD inline std::uint32_t may_hit(const ShearedRay& ray, const TriangleGroup& grou
     const Lanes W = edges(B, A);
     const Lanes least = smaller(smaller(U, V), W);
     const Lanes most = larger(larger(U, V), W);
-    if (non_negative_mask(larger(least, -most)) == 0) return 0;
+    if (non_negative(larger(least, -most)) == 0) return 0;
 
     constexpr float tiny = std::numeric_limits<float>::min();
     const Lanes X = larger(larger(A.reach(), B.reach()), C.reach());
@@ -79,7 +79,7 @@ HD inline std::uint32_t may_hit(const ShearedRay& ray, const TriangleGroup& grou
     const Lanes error = all_lanes(4 * unit_roundoff) * bound + all_lanes(tiny) * Z + all_lanes(tiny);
     const Lanes T = (U * A.z + V * B.z + W * C.z) * all_lanes(ray.shear_factors().z < 0 ? -1.0f : 1.0f);
     // If the first argument is NaN, the second is taken.
-    return non_negative_mask(larger(smaller(error + T, least), smaller(error - T, -most)));
+    return non_negative(larger(smaller(error + T, least), smaller(error - T, -most)));
 }
 
 /// Calls found(hit) for every triangle of the group that the ray hits at 0 < t < `limit`. If lanes are
@@ -89,11 +89,11 @@ template <class Found>
 HD void intersect_group(const ShearedRay& ray, const TriangleGroup& group, float limit,
                         const Found& found)
 {
-    const std::uint32_t candidates = lanes_at_once ? may_hit(ray, group) : 0xfu;
-    for (int lane = 0; candidates >> lane != 0; ++lane) {
+    LaneBits candidates = lanes_at_once ? may_hit(ray, group) : (1u << most_in_group) - 1;
+    while (candidates != 0) {
+        const int lane = take_lane(candidates);
         Hit hit{0, group.primitives[lane], 0, 0};
-        if ((candidates >> lane & 1) != 0 && intersect_triangle(ray, group.triangle(lane), limit, hit))
-            found(hit);
+        if (intersect_triangle(ray, group.triangle(lane), limit, hit)) found(hit);
     }
 }
 

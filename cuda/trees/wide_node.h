@@ -1,7 +1,8 @@
 #pragma once
 
-// Nodes of four children: half as many steps from the root to a leaf as in a binary tree, and four boxes
-// are tested at once where the processor has vectors of four floats [Wald, Benthin, Boulos 2008].
+// Nodes of up to eight children: a third of the steps from the root to a leaf of a binary tree, and all
+// boxes of a node are tested at once where the processor has vectors of floats [Wald, Benthin, Boulos
+// 2008].
 
 #include "cuda/parallel/lanes.h"
 #include "cuda/trees/node.h"
@@ -13,15 +14,19 @@
 namespace fast {
 
 /// A leaf of a wide tree has at most so many primitives.
-constexpr std::uint32_t most_in_group = 4;
+constexpr std::uint32_t most_in_group = lane_count;
 
-/// Up to four children, the boxes coordinate by coordinate. A child that is absent is no_node, and
-/// its box is one that no ray enters. Two cache lines.
+/// A node of a wide tree has at most so many children.
+constexpr int most_children = lane_count;
+
+/// The children, their boxes coordinate by coordinate. A child that is absent is no_node, and its box is
+/// one that no ray enters. Four cache lines.
 struct alignas(64) WideNode {
-    Lanes planes[6];           // lower x, y, z; upper x, y, z
-    std::uint32_t children[4]; // a wide node by its number, a group by its number and the highest bit
+    Lanes planes[6];                       // lower x, y, z; upper x, y, z
+    std::uint32_t children[most_children]; // a wide node by its number, a group by its number and the
+                                           // highest bit
 };
-static_assert(sizeof(WideNode) == 128);
+static_assert(sizeof(WideNode) == 256);
 
 /// Collects the leaves below `child`, from left to right. Returns their number, or most_in_group + 1 if
 /// there are more than most_in_group.
@@ -51,16 +56,16 @@ HD inline bool is_group(std::span<const Node> nodes, std::uint32_t child)
     return leaves_below(nodes, child, leaves) <= most_in_group;
 }
 
-/// Up to four children of a node.
+/// The children of a wide node.
 struct OpenedNode {
-    Aabb boxes[4];
-    std::uint32_t children[4];
-    bool groups[4]; // which of the children are
+    Aabb boxes[most_children];
+    std::uint32_t children[most_children];
+    bool groups[most_children]; // which of the children are
     int count;
 };
 
-/// The children of a wide node: those of `node`, after replacing twice the internal child of the largest
-/// surface area by its own children. `node` is no group.
+/// The children of a wide node: those of `node`, after replacing the internal child of the largest
+/// surface area by its own children as often as there is room. `node` is no group.
 /// [Wald et al. 2008, sec. 3.1].
 HD inline OpenedNode opened(std::span<const Node> nodes, std::uint32_t node)
 {
@@ -69,7 +74,7 @@ HD inline OpenedNode opened(std::span<const Node> nodes, std::uint32_t node)
                       {root.children[0], root.children[1]},
                       {is_group(nodes, root.children[0]), is_group(nodes, root.children[1])},
                       2};
-    while (result.count < 4) {
+    while (result.count < most_children) {
         int largest = -1;
         for (int c = 0; c < result.count; ++c)
             if (!result.groups[c] &&

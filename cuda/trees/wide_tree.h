@@ -1,7 +1,7 @@
 #pragma once
 
-// Collapses a binary tree into one of four children per node, whose leaves are groups of up to four
-// triangles [Wald, Benthin, Boulos 2008].
+// Collapses a binary tree into one of up to eight children per node, whose leaves are groups of up to
+// most_in_group triangles [Wald, Benthin, Boulos 2008].
 //
 // Each binary node gets a role: it becomes a wide node, it becomes a group, or it is merged into the
 // wide node or group of an ancestor. The children of a wide node are found from its own subtree
@@ -115,7 +115,7 @@ struct FillWideNodes {
     {
         constexpr float infinity = std::numeric_limits<float>::infinity();
         const OpenedNode node = opened(nodes, child_of(numbers[i]));
-        for (int c = 0; c < 4; ++c) {
+        for (int c = 0; c < most_children; ++c) {
             const bool there = c < node.count;
             wide[i].children[c] = there ? names[number_of(node.children[c])] : no_node;
             for (int axis = 0; axis < 3; ++axis) {

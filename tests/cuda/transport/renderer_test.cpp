@@ -42,7 +42,7 @@ images::Image batch_of(const scenes::Scene& scene, const images::RenderOptions& 
                        unsigned threads, std::uint32_t launch, std::uint64_t number)
 {
     fast::HostMemory memory;
-    fast::ThreadedExecutor executor(threads, 1);
+    fast::HostThreads executor(threads, 1);
     fast::BatchRenderer renderer(memory, executor, {launch, launch, std::size_t{1} << 30}, scene, width,
                                  height, options, {});
     return renderer.render_batch(number, {})->mean;

@@ -23,7 +23,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 TriangleGroup group_of(const std::vector<Triangle>& triangles)
 {
     TriangleGroup group{};
-    for (int lane = 0; lane < 4; ++lane) {
+    for (int lane = 0; lane < fast::lane_count; ++lane) {
         const auto i = static_cast<std::size_t>(lane);
         const bool there = i < triangles.size();
         group.primitives[i] = there ? static_cast<std::uint32_t>(lane) : fast::no_primitive;
@@ -60,7 +60,7 @@ RC_GTEST_PROP(TriangleGroup, PassesOverNothingThatIsHit, ())
         const double scale = random.magnitude(-10, 10);
         const trees_test::Vec3 where =
             (random.below(2) == 0 ? 0.0 : random.magnitude(0, 3)) * random.direction();
-        std::vector<Triangle> triangles(1 + random.below(4));
+        std::vector<Triangle> triangles(1 + random.below(fast::most_in_group));
         for (Triangle& triangle : triangles)
             for (Vec3& vertex : triangle.vertices) vertex = Vec3(scale * (where + random.in_cube()));
         const TriangleGroup group = group_of(triangles);
@@ -83,7 +83,7 @@ TEST(TriangleGroup, LeavesOutWhatIsClearlyBehindOrBeside)
     int candidates = 0;
     int hits = 0;
     for (int i = 0; i < 10000; ++i) {
-        std::vector<Triangle> triangles(4);
+        std::vector<Triangle> triangles(fast::most_in_group);
         for (Triangle& triangle : triangles)
             for (Vec3& vertex : triangle.vertices) vertex = Vec3(random.in_cube());
         const TriangleGroup group = group_of(triangles);

@@ -66,7 +66,7 @@ Aabb check_below(const fast::WideTreeView& tree, const Narrow& narrow, std::uint
     if (fast::is_leaf(child)) {
         ++census.groups;
         const TriangleGroup& group = tree.groups[child & ~fast::leaf_bit];
-        for (int lane = 0; lane < 4; ++lane) {
+        for (int lane = 0; lane < fast::lane_count; ++lane) {
             const std::uint32_t primitive = group.primitives[lane];
             const Triangle triangle = group.triangle(lane);
             if (primitive == fast::no_primitive) {
@@ -83,7 +83,7 @@ Aabb check_below(const fast::WideTreeView& tree, const Narrow& narrow, std::uint
     ++census.nodes;
     const WideNode& node = tree.nodes[child];
     std::uint32_t below = 0;
-    for (int c = 0; c < 4; ++c) {
+    for (int c = 0; c < fast::most_children; ++c) {
         if (node.children[c] == fast::no_node) {
             RC_ASSERT(node.planes[0][c] > node.planes[3][c]); // no ray enters
             continue;
@@ -161,10 +161,12 @@ std::uint32_t balanced(std::vector<Node>& nodes, std::uint32_t& leaves, std::uin
     return at;
 }
 
-// The worst case for the stack: at every level of the deepest tree the larger child is opened twice,
-// and the ray continues into the smaller child with three other children on the stack.
+// The worst case for the stack: at every level of the deepest tree only the larger child is opened, and
+// the ray continues into the smaller child with all other children on the stack.
 TEST(WideTree, TheDeepestOneFitsTheStack)
 {
+    // Parted into all children but one, some parts of so many leaves are no groups.
+    constexpr std::uint32_t many = fast::most_children * fast::most_in_group;
     std::vector<Node> nodes;
     std::uint32_t leaves = 0;
     const Aabb larger{Vec3(-2), Vec3(2)};
@@ -172,10 +174,10 @@ TEST(WideTree, TheDeepestOneFitsTheStack)
     for (int level = 0; level < fast::deepest_tree; ++level) {
         const auto at = static_cast<std::uint32_t>(nodes.size());
         nodes.push_back({{smaller, larger}, {0, 0}, fast::no_node, 0});
-        nodes[at].children[1] = balanced(nodes, leaves, 16, larger);
+        nodes[at].children[1] = balanced(nodes, leaves, many, larger);
         nodes[at].children[0] = static_cast<std::uint32_t>(nodes.size());
     }
-    balanced(nodes, leaves, 16, smaller); // the child that the last level refers to
+    balanced(nodes, leaves, many, smaller); // the child that the last level refers to
     std::vector<std::uint32_t> primitives(leaves);
     for (std::uint32_t i = 0; i < leaves; ++i) primitives[i] = i;
     Random random(1);

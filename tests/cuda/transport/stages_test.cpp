@@ -1,0 +1,72 @@
+// Path tracing in stages gives the same bits as the kernel for whole samples, with every instruction
+// set, number of threads and size of launches.
+
+#include "cuda/launch/batch_renderer.h"
+#include "cuda/launch/host_kernels.h"
+#include "tests/ref/transport/scene_files.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using transport_test::our_scene;
+
+/// A batch by the kernel that computes whole samples.
+images::Batch whole_samples(const scenes::Scene& scene, int width, int height,
+                            const images::RenderOptions& options)
+{
+    fast::HostMemory memory;
+    fast::ThreadedExecutor executor(1);
+    fast::BatchRenderer renderer(memory, executor, {4096, 4096, std::size_t{1} << 30}, scene, width,
+                                 height, options, {});
+    return *renderer.render_batch(3, {});
+}
+
+void expect_same(const images::Batch& a, const images::Batch& b, const std::string& what)
+{
+    EXPECT_EQ(a.mean.pixels, b.mean.pixels) << what;
+    ASSERT_EQ(a.strategies.size(), b.strategies.size()) << what;
+    for (const auto& [strategy, image] : a.strategies)
+        EXPECT_EQ(image.pixels, b.strategies.at(strategy).pixels)
+            << what << ", strategy " << strategy.first << ", " << strategy.second;
+    EXPECT_EQ(a.dropped.count, b.dropped.count) << what;
+}
+
+class StagedPaths : public testing::TestWithParam<std::string> {};
+
+TEST_P(StagedPaths, HaveTheBitsOfWholeSamples)
+{
+    const scenes::Scene scene = our_scene(GetParam());
+    constexpr int width = 21; // not a multiple of the lanes
+    constexpr int height = 14;
+    images::RenderOptions options;
+    options.integrator = images::Integrator::path;
+    options.max_edges = 9; // beyond the bounces without roulette
+    options.batch_size = 3;
+    options.seed = 12345678901;
+    for (const auto strategies : {images::StrategyPictures::none, images::StrategyPictures::weighted}) {
+        options.strategies = strategies;
+        const images::Batch expected = whole_samples(scene, width, height, options);
+        for (const fast::InstructionSet set : fast::instruction_sets())
+            for (const unsigned threads : {1u, 3u})
+                expect_same(*fast::host_renderer(scene, width, height, options, threads, set)
+                                 ->render_batch(3, {}),
+                            expected,
+                            std::string(name_of(set)) + ", " + std::to_string(threads) + " threads");
+    }
+}
+
+std::vector<std::string> names_of_our_scenes()
+{
+    std::vector<std::string> names;
+    for (const auto& file : transport_test::our_scene_files()) names.push_back(file.stem());
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, StagedPaths, testing::ValuesIn(names_of_our_scenes()),
+                         [](const auto& tested) { return tested.param; });
+
+} // namespace
