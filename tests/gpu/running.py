@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import readings
 
-TAIL = 4000  # characters of output that the record keeps, from the end
+KEPT = 2000  # characters that the record keeps of the beginning of an output, and as many of its end
 
 
 class Outcome(NamedTuple):
@@ -61,6 +61,10 @@ def run(words, environment, limit, root):
         return Outcome(code, read(out), read(err), time.monotonic() - start)
 
 
+def shortened(text):
+    return text if len(text) <= 2 * KEPT else f"{text[:KEPT]}\n...\n{text[-KEPT:]}"
+
+
 def run_step(step, limit, root, record, save):
     """Runs a step and writes status, reason, numbers and seconds into its record, and saves after each command."""
     start = time.monotonic()
@@ -91,7 +95,7 @@ def run_step(step, limit, root, record, save):
                     reading.status == readings.PASSED and reading.reason and not worst.reason):
                 label = f"{command.label}: " if command.label else ""
                 worst = reading._replace(reason=label + reading.reason if reading.reason else "")
-                record["output"] = (outcome.out + outcome.err)[-TAIL:]
+                record["output"] = shortened(outcome.out + outcome.err)
             record["numbers"] = numbers_of(step, measured)
             record["seconds"] = round(time.monotonic() - start, 3)
             save()
