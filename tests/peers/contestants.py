@@ -85,19 +85,17 @@ def contestants_of(path, frame, size, plumbline, peers, folder):
     if frame:
         scenes.frame_camera(scene)
     found, absent = [], {}
-    for name, variant in MITSUBA.items():
+    for name in MITSUBA:
         if name in peers:
             file = write_mitsuba(scene, folder, width, height, PATH_EDGES)
             found.append(Contestant(scene.name, name, _mitsuba(peers[name], file)))
-    for name, (engine, edges) in LUXCORE.items():
-        if name not in peers:
-            continue
+    if any(name in peers for name in LUXCORE):
         try:
             file = write_luxcore(scene, folder, width, height)
+            found += [Contestant(scene.name, name, _luxcore(peers[name], file, engine, size, edges))
+                      for name, (engine, edges) in LUXCORE.items()]
         except Problem as problem:
-            absent[name] = str(problem)
-            continue
-        found.append(Contestant(scene.name, name, _luxcore(peers[name], file, engine, size, edges)))
+            absent["luxcore"] = str(problem)
     bidirectional = any(each.name == "luxcore bidir" for each in found)
     for name, (integrator, edges) in PLUMBLINE.items():
         if edges == PATH_EDGES or bidirectional:
