@@ -6,6 +6,7 @@ import re
 import subprocess
 
 from problem import Problem
+from report import finite, interval
 from statistics_of_ratios import ratio_of
 
 OURS = "hploc-wide"
@@ -45,8 +46,8 @@ def rows_of(report):
             common = sorted(set(ours) & set(theirs))
             if common:
                 ratio = ratio_of([1 / ours[i] for i in common], [1 / theirs[i] for i in common])
-                rows.append({"scene": scene, "ours": OURS, "theirs": name, "ratio": ratio.value, "low": ratio.low,
-                             "high": ratio.high, "rounds": ratio.rounds})
+                rows.append({"scene": scene, "ours": OURS, "theirs": name, "ratio": ratio.value,
+                             "low": finite(ratio.low), "high": finite(ratio.high), "rounds": ratio.rounds})
     if not rows:
         raise Problem("bench_fast measured nothing beside Embree: was it built without libembree-dev?")
     return rows
@@ -55,6 +56,5 @@ def rows_of(report):
 def markdown(rows):
     lines = ["| scene | ratio of rates, diffuse rays | CPU, 1 thread | repetitions |", "|---|---|---|---|"]
     for row in rows:
-        lines.append(f"| {row['scene']} | {row['ours']} / {row['theirs']} | {row['ratio']:.2f} "
-                     f"[{row['low']:.2f}, {row['high']:.2f}] | {row['rounds']} |")
+        lines.append(f"| {row['scene']} | {row['ours']} / {row['theirs']} | {interval(row)} | {row['rounds']} |")
     return "\n".join(lines)

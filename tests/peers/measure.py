@@ -1,5 +1,6 @@
 """Calibration, the comparison of pictures, and the rounds."""
 
+import functools
 import random
 import sys
 import time
@@ -94,19 +95,25 @@ def attempt(entry, action):
         print(f"\n{entry.contestant.scene}: {problem}", file=sys.stderr)
 
 
+def prepare_one(entry, options, pixels, seed):
+    calibrate(entry, options.threads, options.seconds, pixels)
+    if options.pictures:
+        render_pictures(entry, options.pictures, max(options.threads), pixels, options.picture_seconds, seed)
+
+
 def prepare(entries, options, pixels):
-    """Calibrates, and renders the pictures that are compared. Between scenes of one contestant nothing is shared."""
+    """Calibrates, and renders the pictures that are compared."""
     progress = Progress(len(entries) * (3 + options.pictures * options.picture_seconds))
     for number, entry in enumerate(entries):
         progress.show((number + 0.01) / len(entries), f"pictures of {' '.join(entry.key)}")
         # Seeds far from those of the rounds, and different ones for each contestant of a scene.
         seed = 100000 + 1000 * number
+        attempt(entry, functools.partial(prepare_one, entry, options, pixels, seed))
 
-        def action(entry=entry, seed=seed):
-            calibrate(entry, options.threads, options.seconds, pixels)
-            if options.pictures:
-                render_pictures(entry, options.pictures, max(options.threads), pixels, options.picture_seconds, seed)
-        attempt(entry, action)
+
+def run_once(entry, threads, number):
+    run = entry.contestant.render(entry.spp[threads], 1 + number, threads)
+    entry.runs.setdefault(threads, {})[number] = run
 
 
 def measure_rounds(entries, options):
@@ -125,8 +132,7 @@ def measure_rounds(entries, options):
                 progress.show((done + 0.01) / total, f"round {number + 1} of {options.rounds}, {scene}")
                 done += 1
                 if entry.failure is None:
-                    attempt(entry, lambda: entry.runs.setdefault(threads, {}).update(  # pylint: disable=W0640
-                        {number: entry.contestant.render(entry.spp[threads], 1 + number, threads)}))
+                    attempt(entry, functools.partial(run_once, entry, threads, number))
     progress.show(1.0, "done")
     if sys.stderr.isatty():
         print(file=sys.stderr)

@@ -4,6 +4,7 @@ import datetime
 import json
 import os
 import shlex
+import signal
 import sys
 import tempfile
 
@@ -134,6 +135,7 @@ def print_markdown(result, entries, options):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # like Ctrl-C
     try:
         sys.exit(main(sys.argv[1:]))
     except (Problem, OSError) as error:

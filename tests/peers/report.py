@@ -24,13 +24,13 @@ def ratios_of(entries, differences, pairs):
                     ratio = ratio_of([a.rate(threads, i, member) for i in rounds],
                                      [b.rate(threads, i, member) for i in rounds])
                     row["ratios"][f"{clock}, threads={threads}"] = {
-                        "ratio": ratio.value, "low": _finite(ratio.low), "high": _finite(ratio.high),
+                        "ratio": ratio.value, "low": finite(ratio.low), "high": finite(ratio.high),
                         "rounds": ratio.rounds}
             rows.append(row)
     return rows
 
 
-def _finite(value):
+def finite(value):
     return value if math.isfinite(value) else None
 
 
