@@ -22,6 +22,7 @@ struct RenderCommand {
     std::uint32_t batch_size = 4;
     unsigned threads = std::max(1U, std::thread::hardware_concurrency());
     std::string device = "ref";
+    std::string instructions = "best";
     std::string integrator = "path";
     std::string builder = "sah-leaf";
     std::string heuristic = "balance";

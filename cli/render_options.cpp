@@ -69,6 +69,11 @@ void add_device_options(CLI::App& command, RenderCommand& options)
                     "ref: the reference; or the fast path in floats, on host or cuda")
         ->check(one_of({"ref", "host", "cuda"}))
         ->capture_default_str();
+    command
+        .add_option("--instructions", options.instructions,
+                    "For host: baseline, avx2, avx512 or best; changes no bit, as --deterministic")
+        ->check(one_of({"baseline", "avx2", "avx512", "best"}))
+        ->capture_default_str();
     command.add_flag("--deterministic", options.deterministic,
                      "The fast path gives the same bits every time; ref always does");
 }

@@ -12,6 +12,21 @@
 
 namespace cli {
 
+namespace {
+
+/// Throws std::invalid_argument if this processor does not have them.
+fast::InstructionSet instructions_named(const std::string& name)
+{
+    if (name == "best") return fast::best_instruction_set();
+    for (const fast::InstructionSet set : fast::instruction_sets())
+        if (name_of(set) == name) return set;
+    throw std::invalid_argument("--instructions " + name + ": this processor does not have them, or " +
+                                "the program was built without; the best is " +
+                                std::string(name_of(fast::best_instruction_set())));
+}
+
+} // namespace
+
 std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, const scenes::Scene& scene)
 {
     const Size size = parse_size(options.size);
@@ -23,7 +38,8 @@ std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, con
         for (const std::string& notice : fast::float_notices(scene))
             std::cerr << shown_name(options.scene) << ": " << notice << '\n';
     if (options.device == "host")
-        return fast::host_renderer(scene, size.width, size.height, plan, options.threads);
+        return fast::host_renderer(scene, size.width, size.height, plan, options.threads,
+                                   instructions_named(options.instructions));
     try {
         return fast::device_renderer(scene, size.width, size.height, plan);
     } catch (const std::runtime_error& error) {

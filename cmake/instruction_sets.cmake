@@ -1,3 +1,16 @@
+# The instruction sets of the host's kernels (cuda/launch/instruction_set.h) besides the compiler's default. The library
+# Highway counts AES and CLMUL to AVX2. With sanitizers only the default is built: it has all that they look for.
+set(PLUMBLINE_AVX2_FLAGS -march=x86-64-v3 -maes -mpclmul)
+set(PLUMBLINE_AVX512_FLAGS -march=x86-64-v4 -maes -mpclmul)
+set(PLUMBLINE_INSTRUCTION_SETS OFF)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND NOT PLUMBLINE_SANITIZE)
+    set(PLUMBLINE_INSTRUCTION_SETS ON)
+    include(CheckCXXSourceRuns)
+    set(CMAKE_REQUIRED_FLAGS "-march=x86-64-v3 -maes -mpclmul")
+    check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"fma\") ? 0 : 1; }" PLUMBLINE_RUNS_AVX2)
+    unset(CMAKE_REQUIRED_FLAGS)
+endif()
+
 # plumbline_kernels(TARGET SET FLAGS SOURCES...): compiles the sources with FLAGS and PLUMBLINE_KERNELS=SET, and adds
 # them to TARGET as one object file of which only the functions plumbline_kernels_SET_... are visible to others.
 #
