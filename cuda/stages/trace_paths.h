@@ -34,7 +34,7 @@ public:
     /// Traces the samples first_slot ... first_slot + count - 1 of a launch. `run` executes each stage
     /// and returns when it is done.
     template <Needs needs, class Run>
-    void trace(const Run& run, const PathJob<needs>& job, std::uint32_t first_slot, std::uint32_t count)
+    void trace(Run&& run, const PathJob<needs>& job, std::uint32_t first_slot, std::uint32_t count)
     {
         for (std::uint32_t i = 0; i < count; ++i) job.film.own[first_slot + i] = Rgb(0.0f);
         run(count, Generate<needs>{job, first_slot, paths_[0]});
