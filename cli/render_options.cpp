@@ -71,7 +71,7 @@ void add_device_options(CLI::App& command, RenderCommand& options)
         ->capture_default_str();
     command
         .add_option("--instructions", options.instructions,
-                    "For host: baseline, avx2, avx512 or best; changes no bit, as --deterministic")
+                    "For host: baseline, avx2, avx512 or best; changes no bit")
         ->check(one_of({"baseline", "avx2", "avx512", "best"}))
         ->capture_default_str();
     command.add_flag("--deterministic", options.deterministic,

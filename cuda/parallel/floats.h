@@ -301,14 +301,14 @@ void one_by_one(const Mask& mask, const Function& function)
 inline Words divided(const Words& x, std::uint32_t divisor, Words& remainder)
 {
     Words quotient;
-    if (any(Words(hn::ShiftRight<22>(x.v)) != Words(0u))) {
+    if (divisor >> 22 != 0 || any(Words(hn::ShiftRight<22>(x.v)) != Words(0u))) {
         one_by_one(Mask(true), [&](int lane) {
             put_lane(quotient, lane, lane_of(x, lane) / divisor);
             put_lane(remainder, lane, lane_of(x, lane) % divisor);
         });
         return quotient;
     }
-    // Below 2^22 the estimate from floats errs by one at most, in either direction.
+    // For numbers below 2^22 the estimate from floats errs by one at most, in either direction.
     const Words estimate = to_word(to_float(x) * (1.0f / static_cast<float>(divisor)));
     quotient = select(x < estimate * divisor, estimate - 1u, estimate);
     remainder = x - quotient * divisor;

@@ -115,6 +115,12 @@ HD inline bool is_finite_number(float x)
     return std::isfinite(x);
 }
 
+template <class F>
+HD MaskOf<F> true_for_all()
+{
+    return true;
+}
+
 /// Names the only index there is.
 struct OnlyLane {};
 

@@ -33,17 +33,19 @@ struct Camera {
 
     /// Whether direction `w` from the eye is inside the picture; if so, sets `pixel` to the pixel that
     /// shows it.
-    [[nodiscard]] HD bool project(const Vec3& w, std::uint32_t& pixel) const
+    template <class F>
+    [[nodiscard]] HD MaskOf<F> project(const Vec3Of<F>& w, WordOf<F>& pixel) const
     {
-        const float ahead = cosine(w);
-        if (ahead <= 0.0f) return false;
-        const float scale = 1.0f / (ahead * pixel_size);
-        const float x = 0.5f * static_cast<float>(width) + glm::dot(w, right) * scale;
-        const float y = 0.5f * static_cast<float>(height) - glm::dot(w, up) * scale;
-        if (!(x >= 0.0f && x < static_cast<float>(width) && y >= 0.0f && y < static_cast<float>(height)))
-            return false;
-        pixel = static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x);
-        return true;
+        const F ahead = cosine(w);
+        const F scale = 1.0f / (ahead * pixel_size);
+        const F x = 0.5f * static_cast<float>(width) + glm::dot(w, Vec3Of<F>(right)) * scale;
+        const F y = 0.5f * static_cast<float>(height) - glm::dot(w, Vec3Of<F>(up)) * scale;
+        const MaskOf<F> inside = ahead > 0.0f && x >= 0.0f && x < static_cast<float>(width) &&
+                                 y >= 0.0f && y < static_cast<float>(height);
+        const F column = select(inside, x, F(0.0f));
+        const F row = select(inside, y, F(0.0f));
+        pixel = to_word(row) * WordOf<F>(width) + to_word(column);
+        return inside;
     }
 
     /// The density (sr^-1) with which eye walks over the whole film start in such a direction.

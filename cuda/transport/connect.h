@@ -22,13 +22,13 @@ struct EyeVertexOf {
     int t;
     SurfacePointOf<F> point;
     Vec3Of<F> facing;
-    Vec3Of<F> alpha;   // BSDF included
-    F pdf_projected;   // as in LightVertex
-    F pdf_area;        // as in LightVertex
-    float brackets[5]; // WalkVertex::bracket for s = 1, 2, 3, 4, and 5 or more; path tracing needs none
+    Vec3Of<F> alpha; // BSDF included
+    F pdf_projected; // as in LightVertex
+    F pdf_area;      // as in LightVertex
+    F brackets[5];   // WalkVertex::bracket for s = 1, 2, 3, 4, and 5 or more; path tracing needs none
 
     /// B of docs/cuda-bdpt.md, equation (4), for a join to a light walk of s >= 1 vertices.
-    [[nodiscard]] HD float bracket(int s) const { return brackets[glm::min(s, 5) - 1]; }
+    [[nodiscard]] HD const F& bracket(int s) const { return brackets[glm::min(s, 5) - 1]; }
 };
 using EyeVertex = EyeVertexOf<float>;
 
@@ -62,22 +62,31 @@ SELDOM HD bool visible_from_both(const SceneView<needs>& scene, const Vec3& a, c
 /// z_{t-1} in the eye walk, per area or, for the environment, per solid angle. `pdf_rev_direction`:
 /// pdf_direction of `emitter` (emitter.h) towards z_{t-2}. `alpha`, `previous_joinable` and `sums` are
 /// those of the walk at z_{t-1}.
+template <Needs needs, Integrator integrator, class F>
+HD F weight_of_emission_hit(const PathOptions& options, const EmitterOf<F>& emitter, int t,
+                            const F& pdf_fwd, const F& pdf_rev_direction,
+                            const MaskOf<F>& previous_joinable, const RunningSumsOf<F>& sums)
+{
+    // In a light walk z_{t-1} would be y_0.
+    const F pdf_position = pdf_emission_position<needs>(emitter);
+    if constexpr (integrator == Integrator::path) {
+        return path_emission_hit_weight(previous_joinable && MaskOf<F>(t > 2), pdf_fwd, pdf_position);
+    } else {
+        const F bracket =
+            sums.bracket(previous_joinable, pdf_rev_direction, F(1.0f), 0, options.heuristic);
+        return emission_hit_weight(options.heuristic, SubpathEndOf<F>{pdf_fwd, pdf_position, bracket});
+    }
+}
+
+/// The same, sent to `sink`.
 template <Needs needs, Integrator integrator, class Sink>
 HD void emission_hit(const PathOptions& options, const Emitter& emitter, int t, const Rgb& alpha,
                      float pdf_fwd, float pdf_rev_direction, bool previous_joinable,
                      const RunningSums& sums, Sink& sink)
 {
-    // In a light walk z_{t-1} would be y_0.
-    const float pdf_position = pdf_emission_position<needs>(emitter);
-    float weight = 0.0f;
-    if constexpr (integrator == Integrator::path) {
-        weight = path_emission_hit_weight(previous_joinable && t > 2, pdf_fwd, pdf_position);
-    } else {
-        const float bracket =
-            sums.bracket(previous_joinable, pdf_rev_direction, 1.0f, 0, options.heuristic);
-        weight = emission_hit_weight(options.heuristic, {pdf_fwd, pdf_position, bracket});
-    }
-    sink.add(0, t, alpha * emitter.emitted, weight);
+    sink.add(0, t, alpha * emitter.emitted,
+             weight_of_emission_hit<needs, integrator, float>(
+                 options, emitter, t, pdf_fwd, pdf_rev_direction, previous_joinable, sums));
 }
 
 /// s = 1: z_{t-1} is joined to a fresh point of an emitter, drawn by `u`. Sets `candidate`, and returns
@@ -136,85 +145,99 @@ HD void next_event(const SceneView<needs>& scene, const PathOptions& options, co
 
 /// t = 1: y_{s-1}, at `point`, is joined to the pinhole. `facing`: its normal on the side that sends
 /// light. `alpha`: its weight times its emission or BSDF towards the eye, without the cosine.
-/// `pdf_area`, `bracket`: of y_{s-1}, as in SubpathEnd.
-template <Needs needs, Integrator integrator, class Sink>
-HD void light_image(const SceneView<needs>& scene, const PathOptions& options, int s,
-                    const SurfacePoint& point, const Vec3& facing, float pdf_area, float bracket,
-                    const Rgb& alpha, Sink& sink)
+/// `pdf_area`, `bracket`: of y_{s-1}, as in SubpathEnd. Sets `candidate` and its `pixel`, and returns
+/// where there is one.
+template <Needs needs, Integrator integrator, class F>
+HD MaskOf<F> light_image_candidate(const SceneView<needs>& scene, const PathOptions& options, int s,
+                                   const SurfacePointOf<F>& point, const Vec3Of<F>& facing,
+                                   const F& pdf_area, const F& bracket, const Vec3Of<F>& alpha,
+                                   MaskOf<F> active, CandidateOf<F>& candidate, WordOf<F>& pixel)
 {
-    const Vec3 d = scene.camera.eye - point.position;
-    const float distance2 = glm::dot(d, d);
-    const float inverse_distance2 = 1.0f / distance2;
-    const Vec3 w = d * std::sqrt(inverse_distance2); // from the surface to the eye
-    const float cosine = glm::dot(facing, w);
-    std::uint32_t pixel = 0;
-    if (!(cosine > 0.0f) || is_black(alpha) || !scene.camera.project(-w, pixel)) return;
-    if (lies_on(scene, scene.eye_contacts, point.primitive)) return;
-    if (s == 1 && !sees_first(scene, point, w, true)) return;
-    if (!visible(scene, leave_to_side(point, facing),
-                 leave_end(scene, scene.camera.eye, scene.eye_contacts, -w,
-                           distance2 * std::sqrt(inverse_distance2))))
-        return;
+    const Vec3Of<F> d = Vec3Of<F>(scene.camera.eye) - point.position;
+    const F distance2 = glm::dot(d, d);
+    const F inverse_distance2 = 1.0f / distance2;
+    const Vec3Of<F> w = d * square_root(inverse_distance2); // from the surface to the eye
+    const F cosine = glm::dot(facing, w);
+    active = active && cosine > 0.0f && !is_black(alpha) && scene.camera.project(-w, pixel);
+    if (none(active)) return active;
+    for (std::uint32_t i = 0; i < scene.eye_contacts.triangle_count; ++i)
+        active = active && point.primitive !=
+                               WordOf<F>(scene.contact_triangles[scene.eye_contacts.first_triangle + i]);
+    if (s == 1) active = active && sees_first(scene, point, w, active);
+    candidate.ray.origin = leave_to_side(point, facing);
+    candidate.ray.t_max = 1.0f;
+    candidate.ray.direction = leave_end<needs, F>(scene, scene.camera.eye, scene.eye_contacts, -w,
+                                                  distance2 * square_root(inverse_distance2)) -
+                              candidate.ray.origin;
     // The density of y_{s-1} in the eye walk. It is also the measurement, since W_e cos is that
     // density.
-    const float pdf_rev_area =
+    const F pdf_rev_area =
         to_area(scene.camera.pdf_solid_angle(scene.camera.cosine(-w)), cosine, inverse_distance2);
-    const float weight = integrator == Integrator::light
-                             ? 1.0f
-                             : light_image_weight(options.heuristic, {pdf_area, pdf_rev_area, bracket});
-    sink.splat(pixel, s, alpha * pdf_rev_area, weight);
-}
-
-/// s = t = 1 for the environment: its y_0 is the direction `towards`, which was sampled with density
-/// `pdf_solid_angle`. `alpha`: radiance over that density.
-template <Needs needs, Integrator integrator, class Sink>
-HD void light_image_of_infinity(const SceneView<needs>& scene, const PathOptions& options,
-                                const Vec3& towards, float pdf_solid_angle, const Rgb& alpha, Sink& sink)
-{
-    std::uint32_t pixel = 0;
-    if (!scene.camera.project(towards, pixel)) return;
-    if (occluded(scene.geometry, {leave_end(scene, scene.camera.eye, scene.eye_contacts, towards),
-                                  std::numeric_limits<float>::infinity(), towards}))
-        return;
-    const float pdf_rev_solid_angle = scene.camera.pdf_solid_angle(scene.camera.cosine(towards));
-    const float weight =
+    candidate.value = alpha * pdf_rev_area;
+    candidate.weight =
         integrator == Integrator::light
-            ? 1.0f
-            : light_image_weight(options.heuristic, {pdf_solid_angle, pdf_rev_solid_angle, 1.0f});
-    sink.splat(pixel, 1, alpha * pdf_rev_solid_angle, weight);
+            ? F(1.0f)
+            : light_image_weight(options.heuristic, SubpathEndOf<F>{pdf_area, pdf_rev_area, bracket});
+    return active;
 }
 
-/// s >= 2: z_{t-1} is joined to y_{s-1}.
-template <Needs needs, class Sink>
-HD void inner_connection(const SceneView<needs>& scene, const PathOptions& options, int s,
-                         const LightVertex& y, const EyeVertex& z, Sink& sink)
+/// The same with s = t = 1 for the environment: its y_0 is the direction `towards`, which was sampled
+/// with density `pdf_solid_angle`. `alpha`: radiance over that density.
+template <Needs needs, Integrator integrator>
+HD bool light_image_of_infinity(const SceneView<needs>& scene, const PathOptions& options,
+                                const Vec3& towards, float pdf_solid_angle, const Rgb& alpha,
+                                CandidateOf<float>& candidate, std::uint32_t& pixel)
 {
-    if (is_black(y.alpha)) return; // then no other member of y was ever written
-    const Vec3 d = y.position - z.point.position;
-    const float distance2 = glm::dot(d, d);
-    const float inverse_distance2 = 1.0f / distance2;
-    const float to_unit = std::sqrt(inverse_distance2);
-    const float cosine_z = glm::dot(z.facing, d) * to_unit;
-    const float cosine_y = -glm::dot(y.facing, d) * to_unit;
-    if (!(cosine_z > 0.0f && cosine_y > 0.0f)) return;
-    const float geometry = cosine_z * cosine_y * inverse_distance2; // G [Veach 1997, sec. 8.1]
-    const Rgb value = z.alpha * geometry * y.alpha;
-    if (is_black(value)) return;
-    const Vec3 from = leave_to_side(z.point, z.facing);
-    if (y.clearance < 0.0f) {
-        if (!visible_from_both(scene, from, y.position - y.clearance * y.facing, z.point.position, d))
-            return;
-    } else {
-        const float clearance = y.clearance + clearance_per_length * distance2 * to_unit;
-        if (!visible(scene, from, y.position + clearance * y.facing)) return;
-    }
+    if (!scene.camera.project(towards, pixel)) return false;
+    candidate.ray = {leave_end(scene, scene.camera.eye, scene.eye_contacts, towards),
+                     std::numeric_limits<float>::infinity(), towards};
+    const float pdf_rev_solid_angle = scene.camera.pdf_solid_angle(scene.camera.cosine(towards));
+    candidate.value = alpha * pdf_rev_solid_angle;
+    candidate.weight = integrator == Integrator::light
+                           ? 1.0f
+                           : light_image_weight(options.heuristic,
+                                                SubpathEnd{pdf_solid_angle, pdf_rev_solid_angle, 1.0f});
+    return true;
+}
+
+/// s >= 2: z_{t-1} is joined to y_{s-1}. Sets `candidate`, and returns where there is one.
+template <Needs needs, class F>
+HD MaskOf<F> inner_connection_candidate(const SceneView<needs>& scene, const PathOptions& options, int s,
+                                        const LightVertexOf<F>& y, const EyeVertexOf<F>& z,
+                                        MaskOf<F> active, CandidateOf<F>& candidate)
+{
+    active = active && !is_black(y.alpha); // else no other member of y was ever written
+    const Vec3Of<F> d = y.position - z.point.position;
+    const F distance2 = glm::dot(d, d);
+    const F inverse_distance2 = 1.0f / distance2;
+    const F to_unit = square_root(inverse_distance2);
+    const F cosine_z = glm::dot(z.facing, d) * to_unit;
+    const F cosine_y = -glm::dot(y.facing, d) * to_unit;
+    active = active && cosine_z > 0.0f && cosine_y > 0.0f;
+    const F geometry = cosine_z * cosine_y * inverse_distance2; // G [Veach 1997, sec. 8.1]
+    candidate.value = z.alpha * geometry * y.alpha;
+    active = active && !is_black(candidate.value);
+    if (none(active)) return active;
+    const F clearance = y.clearance + clearance_per_length * distance2 * to_unit;
+    candidate.ray.origin = leave_to_side(z.point, z.facing);
+    candidate.ray.t_max = 1.0f;
+    candidate.ray.direction = y.position + clearance * y.facing - candidate.ray.origin;
+    one_by_one(active && y.clearance < 0.0f, [&](auto lane) {
+        const LightVertex near = lane_of(y, lane);
+        if (!visible_from_both(scene, lane_of(candidate.ray.origin, lane),
+                               near.position - near.clearance * near.facing,
+                               lane_of(z.point.position, lane), lane_of(d, lane)))
+            put_lane(active, lane, false);
+        put_lane(candidate.ray.direction, lane, Vec3(0.0f)); // not a ray: it is never occluded
+    });
     // Converts a density per projected solid angle at one end to one per area at the other: both
     // cosines, over the squared distance.
-    const float pdf_rev_area_y = z.pdf_projected * geometry;
-    const float pdf_rev_area_z = y.pdf_projected * geometry;
-    sink.add(s, z.t, value,
-             inner_connection_weight(options.heuristic, {y.pdf_area, pdf_rev_area_y, y.bracket(z.t)},
-                                     {z.pdf_area, pdf_rev_area_z, z.bracket(s)}));
+    const F pdf_rev_area_y = z.pdf_projected * geometry;
+    const F pdf_rev_area_z = y.pdf_projected * geometry;
+    candidate.weight = inner_connection_weight(
+        options.heuristic, SubpathEndOf<F>{y.pdf_area, pdf_rev_area_y, y.bracket(z.t)},
+        SubpathEndOf<F>{z.pdf_area, pdf_rev_area_z, z.bracket(s)});
+    return active;
 }
 
 } // namespace fast

@@ -26,16 +26,16 @@ HD LegOf<F> camera_leg(const SceneView<needs>& scene, const SampleIdOf<F>& id)
 
 /// The data that connections need of `v`, which is on a Lambertian surface. Path tracing needs no
 /// brackets.
-template <Integrator integrator>
-HD EyeVertex eye_vertex(Heuristic heuristic, const WalkVertex& v)
+template <Integrator integrator, class F>
+HD EyeVertexOf<F> eye_vertex(Heuristic heuristic, const WalkVertexOf<F>& v)
 {
-    EyeVertex z{v.n + 1,
-                v.point,
-                v.facing,
-                v.alpha * v.material.color * inverse_pi,
-                chance_of(v.material, v.n) * inverse_pi,
-                v.pdf_area,
-                {}};
+    EyeVertexOf<F> z{v.n + 1,
+                     v.point,
+                     v.facing,
+                     v.alpha * v.material.color * F(inverse_pi),
+                     chance_of(v.material, v.n) * inverse_pi,
+                     v.pdf_area,
+                     {}};
     if constexpr (integrator != Integrator::path)
         for (int s = 1; s <= 5; ++s) z.brackets[s - 1] = v.bracket(s, heuristic);
     return z;
@@ -57,11 +57,16 @@ HD void eye_subpath(const SceneView<needs>& scene, const PathOptions& options, c
                                                 v.pdf_area, v.pdf_rev_solid_angle(), v.previous_joinable,
                                                 v.sums, sink);
             if (!scatters(v.material) || v.n == options.max_edges || scene.cumulative.empty()) return;
-            const EyeVertex z = eye_vertex<integrator>(options.heuristic, v);
+            const EyeVertex z = eye_vertex<integrator, float>(options.heuristic, v);
             next_event<needs, integrator>(scene, options, id, z, sink);
             if constexpr (integrator != Integrator::path)
-                for (int s = 2; s <= count + 1 && s + v.n <= options.max_edges; ++s)
-                    inner_connection(scene, options, s, kept[s - 2], z, sink);
+                for (int s = 2; s <= count + 1 && s + v.n <= options.max_edges; ++s) {
+                    CandidateOf<float> candidate{};
+                    if (inner_connection_candidate<needs, float>(scene, options, s, kept[s - 2], z, true,
+                                                                 candidate) &&
+                        !occluded(scene.geometry, candidate.ray))
+                        sink.add(s, z.t, candidate.value, candidate.weight);
+                }
         },
         [&](const Leg& last, int n, const Rgb& alpha, bool previous_joinable, const RunningSums& sums) {
             show_miss(sink, Transport::radiance, last);

@@ -23,22 +23,26 @@ constexpr float largest_sum = 1e30f;
 
 /// A quotient of densities, to the exponent of the heuristic: 1, or 2 for the power heuristic
 /// [Veach 1997, secs. 9.2.2 and 9.2.4]. At most largest_sum.
-HD inline float raised(Heuristic heuristic, float quotient)
+template <class F>
+HD F raised(Heuristic heuristic, const F& quotient)
 {
-    return glm::min(heuristic == Heuristic::power ? quotient * quotient : quotient, largest_sum);
+    return lesser(heuristic == Heuristic::power ? quotient * quotient : quotient, F(largest_sum));
 }
 
 /// The sums that a walk carries to its vertex v_n, n >= 1: the bracket B_{n-1} of equation (4), in all
 /// versions that differ by roulette. Version m is for a path in which the next m bounces of the other
 /// walk, at v_{n-1}, v_{n-2}, ..., are without roulette: their probability to go on is 1.
-class RunningSums {
+template <class F>
+class RunningSumsOf {
 public:
+    RunningSumsOf() = default;
     /// At v_1. `joinable` is c_0: whether the other walk can make the whole path, v_0 included (true
     /// for a light walk whose emitter can be hit; false for an eye walk, since a pinhole cannot be
     /// hit). `geometry_over_pdf`: see advance.
-    HD RunningSums(bool joinable, float geometry_over_pdf) : geometry_over_pdf_(geometry_over_pdf)
+    HD RunningSumsOf(const MaskOf<F>& joinable, const F& geometry_over_pdf)
+        : geometry_over_pdf_(geometry_over_pdf)
     {
-        for (float& version : brackets_) version = joinable ? 1.0f : 0.0f; // (4), B_0
+        for (F& version : brackets_) version = select(joinable, F(1.0f), F(0.0f)); // (4), B_0
     }
 
     /// From v_n to v_{n+1}. `joinable` is c_n: whether v_{n-1} and v_n can be joined.
@@ -47,16 +51,16 @@ public:
     /// it goes on from v_n where roulette applies. `geometry_over_pdf`: converts such a density at
     /// v_{n+1} to pdf_rev / pdf_fwd of v_n. It is the cosine at v_n over the squared distance (1 at
     /// infinity) and over the pdf_fwd of v_n; 0 if the other walk cannot reach v_n.
-    HD void advance(bool joinable, float pdf_rev_solid_angle, float survival, float geometry_over_pdf,
-                    Heuristic heuristic)
+    HD void advance(const MaskOf<F>& joinable, const F& pdf_rev_solid_angle, const F& survival,
+                    const F& geometry_over_pdf, Heuristic heuristic)
     {
         // The factor of B_{n-1} in (4): pdf_rev / pdf_fwd of v_{n-1}, without and with roulette.
-        const float spared = raised(heuristic, pdf_rev_solid_angle * geometry_over_pdf_);
-        const float not_spared = spared * raised(heuristic, survival);
-        const float c = joinable ? 1.0f : 0.0f;
+        const F spared = raised(heuristic, pdf_rev_solid_angle * geometry_over_pdf_);
+        const F not_spared = spared * raised(heuristic, survival);
+        const F c = select(joinable, F(1.0f), F(0.0f));
         for (int m = versions - 1; m > 0; --m) // (4); [Georgiev 2012, eqs. 34 and 35]
-            brackets_[m] = glm::min(c + spared * brackets_[m - 1], largest_sum);
-        brackets_[0] = glm::min(c + not_spared * brackets_[0], largest_sum); // (4)
+            brackets_[m] = lesser(c + spared * brackets_[m - 1], F(largest_sum));
+        brackets_[0] = lesser(c + not_spared * brackets_[0], F(largest_sum)); // (4)
         geometry_over_pdf_ = geometry_over_pdf;
     }
 
@@ -64,16 +68,16 @@ public:
     /// has `other_vertices` >= 0. The other parameters are as in advance; if v_n is at infinity,
     /// `pdf_rev_solid_angle` is instead a density per area across the direction (emitter.h:
     /// pdf_direction).
-    [[nodiscard]] HD float bracket(bool joinable, float pdf_rev_solid_angle, float survival,
-                                   int other_vertices, Heuristic heuristic) const
+    [[nodiscard]] HD F bracket(const MaskOf<F>& joinable, const F& pdf_rev_solid_angle,
+                               const F& survival, int other_vertices, Heuristic heuristic) const
     {
         // At v_n the other walk would make its bounce number other_vertices.
         const int spared_beyond = bounces_without_roulette - other_vertices; // later, without roulette
-        const float chance = spared_beyond >= 0 ? 1.0f : survival;
-        const float quotient = raised(heuristic, pdf_rev_solid_angle * geometry_over_pdf_ * chance);
-        return glm::min((joinable ? 1.0f : 0.0f) +
-                            quotient * brackets_[spared_beyond > 0 ? spared_beyond : 0],
-                        largest_sum); // (4)
+        const F chance = spared_beyond >= 0 ? F(1.0f) : survival;
+        const F quotient = raised(heuristic, pdf_rev_solid_angle * geometry_over_pdf_ * chance);
+        return lesser(select(joinable, F(1.0f), F(0.0f)) +
+                          quotient * brackets_[spared_beyond > 0 ? spared_beyond : 0],
+                      F(largest_sum)); // (4)
     }
 
 private:
@@ -81,19 +85,23 @@ private:
     // hit.
     static constexpr int versions = bounces_without_roulette + 1;
 
-    float brackets_[versions]; // B_{n-1}
-    float geometry_over_pdf_;  // of v_{n-1}
+    F brackets_[versions]; // B_{n-1}
+    F geometry_over_pdf_;  // of v_{n-1}
 };
+using RunningSums = RunningSumsOf<float>;
 
 /// The last vertex of one walk, y_{s-1} or z_{t-1}, where the strategy joins it to the other walk.
-struct SubpathEnd {
-    float pdf_fwd; // > 0: per area; per solid angle at infinity; a probability for a point
-    float pdf_rev; // given the last vertices of the other walk, in the measure of pdf_fwd
-    float bracket; // B of equation (4) at this vertex
+template <class F>
+struct SubpathEndOf {
+    F pdf_fwd; // > 0: per area; per solid angle at infinity; a probability for a point
+    F pdf_rev; // given the last vertices of the other walk, in the measure of pdf_fwd
+    F bracket; // B of equation (4) at this vertex
 };
+using SubpathEnd = SubpathEndOf<float>;
 
 /// S of the end of a light walk, or T of the end of an eye walk.
-HD inline float sum_of_others(Heuristic heuristic, const SubpathEnd& end)
+template <class F>
+HD F sum_of_others(Heuristic heuristic, const SubpathEndOf<F>& end)
 {
     return raised(heuristic, end.pdf_rev / end.pdf_fwd) * end.bracket; // (3)
 }
@@ -107,27 +115,31 @@ HD F weight_of_sums(const F& S, const F& T)
 }
 
 /// s = 0, t >= 2: the eye walk hits an emitter at `z`. No light vertex, so S = 0.
-HD inline float emission_hit_weight(Heuristic heuristic, const SubpathEnd& z)
+template <class F>
+HD F emission_hit_weight(Heuristic heuristic, const SubpathEndOf<F>& z)
 {
-    return weight_of_sums(0.0f, sum_of_others(heuristic, z)); // (5); [Georgiev 2012, eqs. 42 and 43]
+    return weight_of_sums(F(0.0f), sum_of_others(heuristic, z)); // (5); [Georgiev 2012, eqs. 42 and 43]
 }
 
 /// s = 1, t >= 2: `z` is joined to a fresh point of an emitter. `pdf_fwd`, `pdf_rev` are those of that
 /// point as in SubpathEnd; pdf_rev is 0 if the emitter cannot be hit, which means c_0 = 0.
-HD inline float next_event_weight(Heuristic heuristic, float pdf_fwd, float pdf_rev, const SubpathEnd& z)
+template <class F>
+HD F next_event_weight(Heuristic heuristic, const F& pdf_fwd, const F& pdf_rev, const SubpathEndOf<F>& z)
 {
-    const float S = raised(heuristic, pdf_rev / pdf_fwd);  // (3) with B_0 = 1; [Georgiev 2012, eq. 44]
+    const F S = raised(heuristic, pdf_rev / pdf_fwd);      // (3) with B_0 = 1; [Georgiev 2012, eq. 44]
     return weight_of_sums(S, sum_of_others(heuristic, z)); // (5); [Georgiev 2012, eq. 45]
 }
 
 /// s >= 1, t = 1: `y` is joined to the pinhole. A pinhole cannot be hit, so T = 0.
-HD inline float light_image_weight(Heuristic heuristic, const SubpathEnd& y)
+template <class F>
+HD F light_image_weight(Heuristic heuristic, const SubpathEndOf<F>& y)
 {
-    return weight_of_sums(sum_of_others(heuristic, y), 0.0f); // (5); [Georgiev 2012, eqs. 46 and 47]
+    return weight_of_sums(sum_of_others(heuristic, y), F(0.0f)); // (5); [Georgiev 2012, eqs. 46 and 47]
 }
 
 /// s >= 2, t >= 2: `y` is joined to `z`.
-HD inline float inner_connection_weight(Heuristic heuristic, const SubpathEnd& y, const SubpathEnd& z)
+template <class F>
+HD F inner_connection_weight(Heuristic heuristic, const SubpathEndOf<F>& y, const SubpathEndOf<F>& z)
 {
     return weight_of_sums(sum_of_others(heuristic, y),
                           sum_of_others(heuristic, z)); // (5); [Georgiev 2012, eqs. 40 and 41]

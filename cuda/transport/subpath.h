@@ -45,30 +45,32 @@ struct MetSurfaceOf {
 };
 
 /// A vertex v_n of a walk on a surface.
-struct WalkVertex {
-    SurfacePoint point;
-    Vec3 wo;      // unit, to v_{n-1}
-    Vec3 facing;  // the normal on the side of wo
-    float cosine; // of wo and `facing`
-    Material material;
-    std::uint32_t emitter; // or no_emitter
+template <class F>
+struct WalkVertexOf {
+    SurfacePointOf<F> point;
+    Vec3Of<F> wo;     // unit, to v_{n-1}
+    Vec3Of<F> facing; // the normal on the side of wo
+    F cosine;         // of wo and `facing`
+    MaterialOf<F> material;
+    WordOf<F> emitter; // or no_emitter
     int n;
-    Rgb alpha;              // weight of the walk [Veach 1997, sec. 10.2]: f |cos| / p so far
-    bool previous_joinable; // v_{n-1} allows a join to v_n
-    float pdf_area;         // of v_n in this walk, given v_{n-1} and v_{n-2}; > 0
-    RunningSums sums;
+    Vec3Of<F> alpha;             // weight of the walk [Veach 1997, sec. 10.2]: f |cos| / p so far
+    MaskOf<F> previous_joinable; // v_{n-1} allows a join to v_n
+    F pdf_area;                  // of v_n in this walk, given v_{n-1} and v_{n-2}; > 0
+    RunningSumsOf<F> sums;
 
     /// B_n of docs/cuda-bdpt.md, equation (4), where this vertex is joined to a walk of
     /// `other_vertices`. Only for Lambertian surfaces.
-    [[nodiscard]] HD float bracket(int other_vertices, Heuristic heuristic) const
+    [[nodiscard]] HD F bracket(int other_vertices, Heuristic heuristic) const
     {
         return sums.bracket(previous_joinable, pdf_rev_solid_angle(), material.survival, other_vertices,
                             heuristic);
     }
     /// The density with which a walk from the other end goes on along wo, without roulette: for the
     /// reflection of a Lambertian surface, and for emission.
-    [[nodiscard]] HD float pdf_rev_solid_angle() const { return cosine * inverse_pi; }
+    [[nodiscard]] HD F pdf_rev_solid_angle() const { return cosine * inverse_pi; }
 };
+using WalkVertex = WalkVertexOf<float>;
 
 /// The probability that a walk goes on from its n-th bounce.
 template <class F>
@@ -117,6 +119,25 @@ HD MaskOf<F> bounce(const MetSurfaceOf<F>& met, int n, const UniformsOf<F>& u, T
     return u[3] < chance;
 }
 
+/// The data of v_{n-1} that the sums at v_n need: the arguments of RunningSums::advance.
+template <class F>
+struct LastBounceOf {
+    MaskOf<F> joinable; // of the first leg: whether the other walk can reach v_0
+    F pdf_rev;
+    F survival;
+};
+
+/// Takes `sums` from v_{n-1} to v_n; `geometry_over_pdf` is that of v_{n-1}.
+template <class F>
+HD void carry_sums(RunningSumsOf<F>& sums, int n, const LastBounceOf<F>& last,
+                   const F& geometry_over_pdf, Heuristic heuristic)
+{
+    if (n == 1)
+        sums = RunningSumsOf<F>(last.joinable, geometry_over_pdf);
+    else
+        sums.advance(last.joinable, last.pdf_rev, last.survival, geometry_over_pdf, heuristic);
+}
+
 /// Follows `leg` and its bounces, at most to v_{most_vertices - 1}, and calls on_surface(vertex) for
 /// every v_n, n >= 1. If an eye walk leaves the scene, calls on_miss(leg, n, alpha, previous_joinable,
 /// sums) for the v_n at infinity. `alpha` is the weight of v_1. `start_can_be_hit`: whether the other
@@ -128,37 +149,27 @@ HD void walk(const SceneView<needs>& scene, const PathOptions& options, const Sa
 {
     const Event event = carried == Transport::radiance ? Event::eye_bounce : Event::light_bounce;
     bool previous_joinable = true; // true for the eye, and for y_0 and the surface that it lights
-    // Of v_{n-1}, the arguments of RunningSums::advance.
-    bool joinable = start_can_be_hit;
-    float pdf_rev_solid_angle = 0.0f;
-    float survival = 1.0f;
+    LastBounceOf<float> last{start_can_be_hit, 0.0f, 1.0f};
     RunningSums sums(false, 0.0f);
     for (int n = 1; n < most_vertices && !is_black(alpha); ++n) {
-        const auto carry_sums = [&](float geometry_over_pdf) {
-            if (n == 1)
-                sums = RunningSums(joinable, geometry_over_pdf);
-            else
-                sums.advance(joinable, pdf_rev_solid_angle, survival, geometry_over_pdf,
-                             options.heuristic);
-        };
         const Hit hit = intersect(scene.geometry, leg.ray);
         if (hit.primitive == no_primitive) {
-            carry_sums(leg.cosine_over_pdf);
+            carry_sums(sums, n, last, leg.cosine_over_pdf, options.heuristic);
             on_miss(leg, n, alpha, previous_joinable, sums);
             return;
         }
         const MetSurfaceOf<float> met = meet_surface<needs, float>(scene, leg, hit, true);
         if (!(met.pdf_area > 0.0f)) return; // in the plane of the surface: the density is 0
-        carry_sums(leg.cosine_over_pdf * met.inverse_distance2);
+        carry_sums(sums, n, last, leg.cosine_over_pdf * met.inverse_distance2, options.heuristic);
         on_surface(WalkVertex{met.point, met.wo, met.facing, met.cosine, met.material, met.emitter, n,
                               alpha, previous_joinable, met.pdf_area, sums});
         if (n + 1 == most_vertices) return;
 
         const Uniforms u = uniforms(id, event, static_cast<std::uint32_t>(n));
-        if (!bounce<needs, float>(met, n, u, carried, leg, alpha, pdf_rev_solid_angle)) return;
-        joinable = previous_joinable && scatters(met.material);
+        if (!bounce<needs, float>(met, n, u, carried, leg, alpha, last.pdf_rev)) return;
+        last.joinable = previous_joinable && scatters(met.material);
         previous_joinable = scatters(met.material);
-        survival = met.material.survival;
+        last.survival = met.material.survival;
     }
 }
 
