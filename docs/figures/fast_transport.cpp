@@ -150,15 +150,16 @@ void measure_needs(const scenes::Scene& scene, const figures::RoundOptions& opti
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Prints the tables of docs/cuda-bdpt.md on the speed of the fast path on the host",
-                 "figure_fast_transport");
+    figures::Program program(
+        "Prints the tables of docs/cuda-bdpt.md on the speed of the fast path on the host",
+        "figure_fast_transport");
     figures::SceneFiles files;
     figures::RoundOptions options{.seconds = 0.7, .reference_seconds = 8.0};
-    figures::add_scene_options(app, files);
-    figures::add_round_options(app, options);
-    app.footer("Means over the rounds with 95% intervals; quotients with theirs in brackets.\n"
-               "Example: figure_fast_transport scenes/cornell_glass.dae --rounds 10");
-    return figures::run(app, argc, argv, [&] {
+    program.add(files);
+    program.add(options);
+    program.set_footer("Means over the rounds with 95% intervals; quotients with theirs in brackets.\n"
+                       "Example: figure_fast_transport scenes/cornell_glass.dae --rounds 10");
+    return program.run(argc, argv, [&] {
         const std::vector<scenes::Scene> all = figures::read_scenes(files);
         std::mt19937_64 random(options.seed);
         std::printf("| scene |");
