@@ -17,6 +17,8 @@
 #include "ref/trees/bvh.h"
 #include "ref/trees/geometry.h"
 
+#include <CLI/CLI.hpp>
+
 #include <iostream>
 #include <memory>
 #include <stdexcept>

@@ -4,6 +4,8 @@
 
 #include "cli/builders.h"
 
+#include <CLI/CLI.hpp>
+
 namespace cli {
 
 void add_bvh_options(CLI::App& command, BvhCommand& options)

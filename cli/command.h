@@ -5,9 +5,11 @@
 // or throws an exception. X_options.cpp reads the options, X_command.cpp does the work, and its parts
 // are named after it: X_report.h, for example.
 
-#include <CLI/CLI.hpp>
-
 #include <functional>
+
+namespace CLI {
+class App; // only declared: CLI11 takes long to compile
+}
 
 namespace cli {
 

@@ -12,6 +12,8 @@
 #include "golden/report.h"
 #include "images/atomic_file.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -4,8 +4,6 @@
 
 #include "cli/command.h"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <cstdint>
 #include <optional>

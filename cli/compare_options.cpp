@@ -2,6 +2,8 @@
 
 #include "cli/compare_command.h"
 
+#include <CLI/CLI.hpp>
+
 namespace cli {
 
 void add_compare_options(CLI::App& command, CompareCommand& options)

@@ -1,5 +1,7 @@
 #include "cli/counts.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cstddef>

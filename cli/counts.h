@@ -2,9 +2,11 @@
 
 // Whole numbers with an exponent: 1e3 is 1000.
 
-#include <CLI/CLI.hpp>
-
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace cli {
 

@@ -13,6 +13,8 @@
 #include "cli/scene_input.h"
 #include "images/exr.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -3,6 +3,8 @@
 #include "cli/golden_command.h"
 #include "cli/render_command.h"
 
+#include <CLI/CLI.hpp>
+
 #include <stdexcept>
 
 namespace cli {

@@ -2,6 +2,8 @@
 
 #include "images/file_ending.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>

@@ -5,8 +5,6 @@
 #include "cli/bvh_command.h"
 #include "cli/render_command.h"
 
-#include <CLI/CLI.hpp>
-
 namespace cli {
 
 /// Throws std::invalid_argument for an option that was given on the command line of `command` and has no

@@ -10,6 +10,8 @@
 #include "cli/standard_output.h"
 #include "cuda/launch/device.h"
 
+#include <CLI/CLI.hpp>
+
 #include <csignal>
 #include <exception>
 #include <iostream>

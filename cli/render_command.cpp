@@ -17,6 +17,8 @@
 #include "images/strategy_sheet.h"
 #include "images/write_image.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <iostream>

@@ -5,8 +5,6 @@
 #include "cli/command.h"
 #include "images/render_options.h"
 
-#include <CLI/CLI.hpp>
-
 #include <cstdint>
 #include <string>
 #include <thread>

@@ -8,6 +8,8 @@
 #include "images/whole_number.h"
 #include "images/write_image.h"
 
+#include <CLI/CLI.hpp>
+
 #include <cmath>
 #include <filesystem>
 #include <map>

@@ -38,6 +38,16 @@ double largest_coordinate(const Triangle& triangle)
     return largest;
 }
 
+/// At most the distance of `p` from the bounding box of a triangle.
+double distance_to_box(const Triangle& triangle, const Vec3& p)
+{
+    const auto& v = triangle.vertices;
+    const Vec3 below = glm::min(glm::min(v[0], v[1]), v[2]) - p;
+    const Vec3 above = p - glm::max(glm::max(v[0], v[1]), v[2]);
+    const Vec3 outside = glm::max(below, above);
+    return std::max({outside.x, outside.y, outside.z});
+}
+
 /// The vector from `p` to the nearest point of a triangle: perpendicular to its plane if the foot point
 /// is inside, otherwise to the nearest edge.
 Vec3 to_nearest_point(const Triangle& triangle, const Vec3& normal, const Vec3& p)
@@ -175,10 +185,15 @@ std::vector<NearSurface> surfaces_near(const Scene& scene, const Vec3& point, do
         const int side = std::abs(height) <= on_it ? 0 : height > 0 ? 1 : -1;
         result.push_back({primitive, side, normal});
     };
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
-        if (const auto normal = normal_of(scene.triangles[i]))
-            add(i, to_nearest_point(scene.triangles[i], *normal, point), *normal,
-                largest_coordinate(scene.triangles[i]));
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+        const Triangle& triangle = scene.triangles[i];
+        const double largest = largest_coordinate(triangle);
+        // Most triangles are far away, and their boxes tell; twice, because a distance is rounded.
+        if (distance_to_box(triangle, point) > 2 * std::max(near, on * std::max(size, largest)))
+            continue;
+        if (const auto normal = normal_of(triangle))
+            add(i, to_nearest_point(triangle, *normal, point), *normal, largest);
+    }
     for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) {
         const Sphere& sphere = scene.spheres[i];
         const Vec3 from_center = point - sphere.center;

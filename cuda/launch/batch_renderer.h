@@ -137,7 +137,7 @@ private:
                   const SceneArrays& arrays, int width, int height, const images::RenderOptions& options,
                   Needs at_least)
         : executor_(executor), options_(checked(options)), width_(width), height_(height),
-          pixels_(pixel_count(width, height)), needs_(arrays.needs | at_least),
+          pixels_(pixel_count(width, height)), needs_(compiled_for(arrays.needs | at_least)),
           scene_(memory, executor, arrays, camera_of(scene, arrays.place, width, height)),
           capacity_(options_.integrator == Integrator::bdpt
                         ? most_light_vertices(arrays, options_.max_edges)

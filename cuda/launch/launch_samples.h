@@ -5,7 +5,7 @@
 #include "cuda/scene/scene_in_memory.h"
 #include "cuda/transport/render_samples.h"
 
-#include <type_traits>
+#include <utility>
 
 namespace fast {
 
@@ -18,23 +18,19 @@ struct SampleJob {
     int capacity;
 };
 
-/// Calls function.operator()<Needs>() with these needs.
+/// Calls function.operator()<Needs>() with the smallest compiled needs that include these.
 template <class Function>
-void with_needs(Needs needs, const Function& function)
+void with_needs(const Needs& needs, const Function& function)
 {
-    const auto choose = [](bool condition, const auto& next) {
-        if (condition)
-            next(std::true_type{});
-        else
-            next(std::false_type{});
+    const Needs chosen = compiled_for(needs);
+    const auto try_needs = [&]<Needs compiled>() {
+        if (chosen == compiled) function.template operator()<compiled>();
     };
-    choose(needs.spheres, [&](auto spheres) {
-        choose(needs.specular, [&](auto specular) {
-            choose(needs.other_lights, [&](auto other_lights) {
-                function.template operator()<Needs{spheres, specular, other_lights}>();
-            });
-        });
-    });
+    [&]<std::size_t... i>(std::index_sequence<i...>)
+    {
+        (try_needs.template operator()<compiled_needs[i]>(), ...);
+    }
+    (std::make_index_sequence<compiled_needs.size()>{});
 }
 
 /// Queues the samples of a job. Compiled once per integrator and executor, in a file of its own.

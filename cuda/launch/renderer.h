@@ -22,7 +22,8 @@ constexpr int most_edges = 1 << 20;
 /// RenderOptions::deterministic is set.
 class Renderer : public images::Renderer {
 public:
-    /// The abilities of the kernels that render: the needs of the scene, and `at_least`.
+    /// The abilities of the kernels that render: the smallest in compiled_needs that include the needs
+    /// of the scene, and `at_least`.
     [[nodiscard]] virtual Needs needs() const = 0;
 };
 

@@ -1,9 +1,11 @@
 #pragma once
 
-// Features that a kernel can be compiled without. Each combination is compiled once, so a feature that a
-// scene does not use costs its kernels no branch and no register.
+// Features that a kernel can be compiled without. A feature that a kernel is compiled without costs it
+// no branch and no register.
 
 #include "images/render_options.h"
+
+#include <array>
 
 namespace fast {
 
@@ -22,6 +24,19 @@ struct Needs {
 
 /// Of a kernel that can do everything.
 constexpr Needs any_needs{true, true, true};
+
+/// The combinations that kernels are compiled for; each includes those before it. All eight would take
+/// more than twice as long to compile, for three integrators and each executor, and no gain of the
+/// smaller ones was measured (docs/cuda-bdpt.md, section 7).
+constexpr std::array compiled_needs = {Needs{}, Needs{true, true, false}, any_needs};
+
+/// The smallest combination in compiled_needs that includes `needs`.
+constexpr Needs compiled_for(const Needs& needs)
+{
+    for (const Needs& compiled : compiled_needs)
+        if ((compiled | needs) == compiled) return compiled;
+    return any_needs;
+}
 
 /// Path tracing and light tracing are bidirectional path tracing with some strategies left out.
 using images::Integrator;

@@ -96,7 +96,7 @@ void print_table()
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Prints the table of docs/bdpt.md on distances by which rays leave a surface",
-                 "figure_epsilon");
-    return figures::run(app, argc, argv, print_table);
+    figures::Program program(
+        "Prints the table of docs/bdpt.md on distances by which rays leave a surface", "figure_epsilon");
+    return program.run(argc, argv, print_table);
 }

@@ -201,16 +201,16 @@ void print_head()
 
 int main(int argc, char** argv)
 {
-    CLI::App app(
+    figures::Program program(
         "Prints the table of docs/bdpt.md on path, bidirectional and light tracing at equal CPU time",
         "figure_equal_time");
     figures::SceneFiles files;
     figures::RoundOptions options;
-    figures::add_scene_options(app, files);
-    figures::add_round_options(app, options);
-    app.footer("Means over the rounds with 95% intervals.\n"
-               "Example: figure_equal_time scenes/cornell_glass.dae --rounds 10");
-    return figures::run(app, argc, argv, [&] {
+    program.add(files);
+    program.add(options);
+    program.set_footer("Means over the rounds with 95% intervals.\n"
+                       "Example: figure_equal_time scenes/cornell_glass.dae --rounds 10");
+    return program.run(argc, argv, [&] {
         const std::vector<scenes::Scene> all = figures::read_scenes(files);
         std::mt19937_64 random(options.seed);
         print_head();

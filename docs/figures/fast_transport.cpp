@@ -131,19 +131,16 @@ void compare(const scenes::Scene& scene, const figures::RoundOptions& options, s
 void measure_needs(const scenes::Scene& scene, const figures::RoundOptions& options,
                    std::mt19937_64& random)
 {
-    constexpr std::array more = {fast::Needs{}, fast::Needs{true, false, false},
-                                 fast::Needs{false, true, false}, fast::Needs{false, false, true},
-                                 fast::Needs{true, true, true}};
     for (std::size_t i = 0; i < integrators.size(); ++i) {
         std::vector<cli::Measurement> measurements;
-        for (const fast::Needs& needs : more)
+        for (const fast::Needs& needs : fast::compiled_needs)
             measurements.emplace_back([&, i, needs](std::size_t round) {
                 return fast(scene, integrators[i], 1, options.seconds, options.seed + 1 + round, needs)
                     .samples_per_second;
             });
         const auto rates = cli::measure_in_rounds(options.rounds, random, measurements);
         std::printf("| %s | %s | %s |", scene.name.c_str(), names[i], rates_text(rates[0]).c_str());
-        for (std::size_t j = 1; j < more.size(); ++j)
+        for (std::size_t j = 1; j < fast::compiled_needs.size(); ++j)
             std::printf(" %s |", to_text(cli::ratio_of_rounds(rates[j], rates[0])).c_str());
         std::printf("\n");
         std::fflush(stdout);
@@ -154,15 +151,16 @@ void measure_needs(const scenes::Scene& scene, const figures::RoundOptions& opti
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Prints the tables of docs/cuda-bdpt.md on the speed of the fast path on the host",
-                 "figure_fast_transport");
+    figures::Program program(
+        "Prints the tables of docs/cuda-bdpt.md on the speed of the fast path on the host",
+        "figure_fast_transport");
     figures::SceneFiles files;
     figures::RoundOptions options{.seconds = 0.7, .reference_seconds = 8.0};
-    figures::add_scene_options(app, files);
-    figures::add_round_options(app, options);
-    app.footer("Means over the rounds with 95% intervals; quotients with theirs in brackets.\n"
-               "Example: figure_fast_transport scenes/cornell_glass.dae --rounds 10");
-    return figures::run(app, argc, argv, [&] {
+    program.add(files);
+    program.add(options);
+    program.set_footer("Means over the rounds with 95% intervals; quotients with theirs in brackets.\n"
+                       "Example: figure_fast_transport scenes/cornell_glass.dae --rounds 10");
+    return program.run(argc, argv, [&] {
         const std::vector<scenes::Scene> all = figures::read_scenes(files);
         std::mt19937_64 random(options.seed);
         std::printf("| scene |");
@@ -174,8 +172,8 @@ int main(int argc, char** argv)
             "|---|---|\n");
         for (const scenes::Scene& scene : all) compare(scene, options, random);
         std::printf(
-            "\n| scene | integrator | 1000 samples/s | rate with spheres | with mirrors and glass | "
-            "with other lights | with all |\n|---|---|---|---|---|---|---|\n");
+            "\n| scene | integrator | 1000 samples/s | rate with spheres, mirrors and glass | with all "
+            "|\n|---|---|---|---|---|\n");
         for (const scenes::Scene& scene : all) measure_needs(scene, options, random);
     });
 }

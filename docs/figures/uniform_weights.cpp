@@ -145,15 +145,15 @@ void draw(const scenes::Scene& scene, const std::string& out)
 
 int main(int argc, char** argv)
 {
-    CLI::App app(
+    figures::Program program(
         "Draws pictures by uniform weights, by the balance heuristic and by path tracing side by side, "
         "and prints the table of docs/bdpt.md",
         "figure_uniform_weights");
     std::string scene;
     std::string out;
-    app.add_option("scene", scene, "COLLADA file")->required();
-    app.add_option("picture", out, "Picture: .png")->required();
-    return figures::run(app, argc, argv, [&] {
+    program.add_file("scene", scene, "COLLADA file");
+    program.add_file("picture", out, "Picture: .png");
+    return program.run(argc, argv, [&] {
         if (!images::has_ending(out, ".png"))
             throw std::invalid_argument(out + ": the name of the picture must end in .png");
         images::check_writable(out);

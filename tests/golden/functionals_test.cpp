@@ -81,7 +81,7 @@ RC_GTEST_PROP(Functionals, EveryPixelLiesInOneRegionOfEachKind, ())
         RC_ASSERT(region.pixels > 0u);
         sizes[region.kind] += region.pixels;
     }
-    for (const auto& [kind, size] : sizes) RC_ASSERT(size == pixels);
+    for (const auto& [kind, counted] : sizes) RC_ASSERT(counted == pixels);
 }
 
 TEST(Functionals, OfASquareOf128PixelsHaveTilesOf16And32AndSixteenStrata)

@@ -124,9 +124,9 @@ TEST(Exr, AFilmWithoutBatchesIsStoredWithItsInfiniteError)
 TEST(Exr, NamesThatTheFormatCannotHoldAreRefusedAndNothingIsWritten)
 {
     const TemporaryFolder folder;
-    const auto write = [&](const std::string& layer, const std::string& key, int width = 2) {
+    const auto write = [&](const std::string& layer, const std::string& key, int columns = 2) {
         images::write_exr(folder / "a.exr", film_of(Image(2, 2)), {{key, ""}},
-                          {{layer, Image(width, 2)}});
+                          {{layer, Image(columns, 2)}});
     };
     for (const auto& name : {""s, "se"s, "state"s, "state.mean"s, "a\0b"s, std::string(201, 'x')})
         EXPECT_THROW(write(name, "key"), std::invalid_argument) << name;

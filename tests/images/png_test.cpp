@@ -93,14 +93,14 @@ RC_GTEST_PROP(Png, DecodesToTheColoursOfItsPixels, ())
         any_image(rc::gen::map(rc::gen::inRange(-50, 1100), [](int i) { return i / 1000.0; }));
     images::write_png(folder / "a.png", image, 0.5);
 
-    int width = 0;
-    int height = 0;
+    int columns = 0;
+    int rows = 0;
     int channels = 0;
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load((folder / "a.png").c_str(), &width, &height, &channels, 0), stbi_image_free);
+        stbi_load((folder / "a.png").c_str(), &columns, &rows, &channels, 0), stbi_image_free);
     RC_ASSERT(pixels != nullptr);
-    RC_ASSERT(width == image.width);
-    RC_ASSERT(height == image.height);
+    RC_ASSERT(columns == image.width);
+    RC_ASSERT(rows == image.height);
     RC_ASSERT(channels == 3);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const Srgb8 color = to_srgb8(image.pixels[i], 0.5);

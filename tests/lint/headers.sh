@@ -1,20 +1,44 @@
 #!/usr/bin/env bash
-# headers.sh ROOT COMPILER: every header compiles by itself. If it has a source file, that file proves this
-# by including the header first; only headers without a source file are compiled here.
+# headers.sh ROOT COMPILER: every header compiles by itself. A file that begins by including a header proves this for
+# it, because the compiler has seen nothing before it, and so on if that header begins with another. Source files must
+# begin with their own header. So only those headers are compiled here that neither a source file nor another
+# header begins with. (Where sources are compiled in batches, only the first of a batch is a proof.)
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/files.sh"
 cd "$1"
-alone=()
+files=()
 failed=0
 while IFS= read -r -d '' header; do
+    files+=("$header")
     source=${header%.h}.cpp
-    if [ ! -f "$source" ]; then
-        alone+=("$header")
-    elif [ "$(grep -m1 '^#include' "$source")" != "#include \"$header\"" ]; then
+    [ -f "$source" ] || continue
+    files+=("$source")
+    if [ "$(grep -m1 '^#include' "$source")" != "#include \"$header\"" ]; then
         echo "$source: its first include must be \"$header\""
         failed=1
     fi
 done < <(tracked 'cli/*.h' 'golden/*.h' 'images/*.h' 'ref/*.h' 'scenes/*.h' 'cuda/*.h')
-printf '%s\0' "${alone[@]}" |
+[ ${#files[@]} -eq 0 ] && exit $failed
+# begins[A] = B: before A's #include "B" there are only comments and #pragma once.
+awk '
+    FNR == 1 { before = 1; if (FILENAME ~ /\.h$/) headers[FILENAME]; else sources[FILENAME] }
+    !before || /^(\/\/.*|#pragma once)?$/ { next }
+    { before = 0 }
+    /^#include "[^"]+"$/ { split($0, quoted, "\""); begins[FILENAME] = quoted[2]; preceded[quoted[2]] }
+    function prove(file) {
+        for (; !(file in proved); file = begins[file]) {
+            proved[file]
+            if (!(file in begins)) break
+        }
+    }
+    function compile(file) {
+        printf "%s%c", file, 0
+        prove(file)
+    }
+    END {
+        for (file in sources) prove(file)
+        for (file in headers) if (!(file in preceded)) compile(file)
+        for (file in headers) if (!(file in proved)) compile(file) # those that begin with one another in a circle
+    }' "${files[@]}" |
     xargs -0 -r -I{} -P "$(nproc)" "$2" -std=c++20 -fsyntax-only -Wall -Wextra -I. -include {} -x c++ /dev/null || failed=1
 exit $failed

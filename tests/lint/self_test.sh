@@ -42,6 +42,17 @@ expect fail headers.sh golden/a.h 'std::string f();'
 printf '#include <string>\n#include "golden/a.h"\n' >"$root/golden/a.cpp"
 expect fail headers.sh golden/a.h 'std::string f();'
 rm "$root/golden/a.cpp"
+# Another header is no proof if anything comes before its #include, and nor are two that begin with each other.
+for before in '#include <string>' '#define GIVEN'; do
+    printf '%s\n#include "golden/a.h"\n' "$before" >"$root/golden/b.h"
+    expect fail headers.sh golden/a.h $'#ifndef GIVEN\nstd::string f();\n#endif'
+done
+printf '// A comment.\n#pragma once\n\n#include "golden/a.h"\n' >"$root/golden/b.h"
+expect pass headers.sh golden/a.h 'inline int f() { return 1; }'
+expect fail headers.sh golden/a.h 'std::string f();'
+expect pass headers.sh golden/a.h $'#pragma once\n#include "golden/b.h"'
+expect fail headers.sh golden/a.h $'#pragma once\n#include "golden/b.h"\nstd::string f();'
+rm "$root/golden/b.h"
 if command -v clang-format >/dev/null; then
     expect pass format.sh golden/a.h 'int f();'
     expect fail format.sh golden/a.h 'int   f( ) ;'

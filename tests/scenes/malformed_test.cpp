@@ -223,7 +223,7 @@ TEST_P(MalformedElement, RaisesAnErrorOfOneLineThatNamesFileLineAndElement)
     EXPECT_EQ(error_of(text), "bad.dae:" + std::to_string(line) + ": " + mistake.message);
 }
 
-const std::string p = "<p>0 0 1 0 2 0 0 0 1 0 2 0 3 0</p>";
+const std::string corners = "<p>0 0 1 0 2 0 0 0 1 0 2 0 3 0</p>";
 const std::string array =
     "<float_array id=\"quad-array\" count=\"12\">0 0 0 1 0 0 1 1 0 0 1 0</float_array>";
 const std::string array_start = "<float_array id=\"quad-array\"";
@@ -410,22 +410,22 @@ const Mistake mistakes[] = {
      "<input semantic=\"VERTEX\">: attribute \"offset\" is missing"},
     {"HugeInputOffset", "offset=\"1\"", "offset=\"1000000000\"", "\"NORMAL\"",
      "<input semantic=\"NORMAL\">: offset 1000000000 is not below 1000"},
-    {"IndexOutOfRange", p, "<p>0 0 1 0 2 0 0 0 1 0 2 0 4 0</p>", "<p>",
+    {"IndexOutOfRange", corners, "<p>0 0 1 0 2 0 0 0 1 0 2 0 4 0</p>", "<p>",
      "<p>: vertex index 4 is out of range: there are 4 vertices"},
-    {"NegativeIndex", p, "<p>0 0 1 0 2 0 0 0 1 0 2 0 -1 0</p>", "<p>", "<p>: \"-1\" is negative"},
-    {"HugeIndex", p, "<p>0 0 1 0 2 0 0 0 1 0 2 0 99999999999 0</p>", "<p>",
+    {"NegativeIndex", corners, "<p>0 0 1 0 2 0 0 0 1 0 2 0 -1 0</p>", "<p>", "<p>: \"-1\" is negative"},
+    {"HugeIndex", corners, "<p>0 0 1 0 2 0 0 0 1 0 2 0 99999999999 0</p>", "<p>",
      "<p>: \"99999999999\" is too large"},
-    {"FractionalIndex", p, "<p>0 0 1 0 2 0 0 0 1 0 2 0 1.5 0</p>", "<p>",
+    {"FractionalIndex", corners, "<p>0 0 1 0 2 0 0 0 1 0 2 0 1.5 0</p>", "<p>",
      "<p>: \"1.5\" is not a whole number"},
-    {"TooFewIndices", p, "<p>0 0 1 0 2 0 0 0 1 0 2 0</p>", "<polylist",
+    {"TooFewIndices", corners, "<p>0 0 1 0 2 0 0 0 1 0 2 0</p>", "<polylist",
      describe_polylist + "<vcount> asks for 7 corners, but <p> lists 6"},
-    {"TooManyIndices", p, "<p>0 0 1 0 2 0 0 0 1 0 2 0 3 0 3 0</p>", "<polylist",
+    {"TooManyIndices", corners, "<p>0 0 1 0 2 0 0 0 1 0 2 0 3 0 3 0</p>", "<polylist",
      describe_polylist + "<vcount> asks for 7 corners, but <p> lists 8"},
-    {"HalfACorner", p, "<p>0 0 1 0 2 0 0 0 1 0 2 0 3</p>", "<p>",
+    {"HalfACorner", corners, "<p>0 0 1 0 2 0 0 0 1 0 2 0 3</p>", "<p>",
      "<p>: 13 indices are no multiple of the 2 that each corner takes"},
-    {"NoIndices", p, "", "<polylist",
+    {"NoIndices", corners, "", "<polylist",
      describe_polylist + "<vcount> asks for 7 corners, but <p> lists 0"},
-    {"TwoListsOfIndices", p, p + "\n<p />", "<p />",
+    {"TwoListsOfIndices", corners, corners + "\n<p />", "<p />",
      "<p>: a second <p> in <polylist material=\"skin\">"},
     {"WrongPolygonCount", polylist, "<polylist material=\"skin\" count=\"3\">", "<polylist",
      describe_polylist + "count is 3, but it holds 2 polygons"},

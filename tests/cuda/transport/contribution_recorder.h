@@ -45,7 +45,7 @@ public:
     {}
     [[nodiscard]] fast::Needs needs() const { return arrays_.needs; }
 
-    /// Computed by the kernel that is compiled for `needs`, which must include needs().
+    /// Computed by the kernel for compiled_for(needs), which must include needs().
     [[nodiscard]] std::vector<RecordedContribution> sample(fast::Needs needs,
                                                            fast::Integrator integrator,
                                                            const fast::PathOptions& options,

@@ -14,7 +14,7 @@ using scenes::Vec3;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The integral over the square [-1, 1]^2.
 template <class Value>

@@ -21,7 +21,7 @@ using scenes::Vec3;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A view of the plane within 0.5 of the origin, from a distance of at most 1.2.
 PlaneEye any_eye(OddBuilder& builder)

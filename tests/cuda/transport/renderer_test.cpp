@@ -11,6 +11,8 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -281,23 +283,64 @@ TEST(BatchRenderer, ASceneWithoutLightIsBlack)
 // The parts that a kernel leaves out change no bit of its result.
 TEST(Needs, LeavingOutWhatASceneDoesNotHaveChangesNothing)
 {
-    bool seen[3][2] = {};
+    std::array<bool, fast::compiled_needs.size()> seen{};
     for (const auto& file : transport_test::our_scene_files()) {
         const scenes::Scene scene = scenes::read_scene(file);
         const ContributionRecorder recorder(scene, width, height);
         const fast::Needs needs = recorder.needs();
-        seen[0][needs.spheres ? 1 : 0] = true;
-        seen[1][needs.specular ? 1 : 0] = true;
-        seen[2][needs.other_lights ? 1 : 0] = true;
-        for (std::uint32_t pixel = 0; pixel < width * height; ++pixel)
-            for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
-                const fast::PathOptions options{1, 6, fast::Heuristic::balance};
-                EXPECT_EQ(recorder.sample(needs, integrator, options, {1, pixel, 0}),
-                          recorder.sample({true, true, true}, integrator, options, {1, pixel, 0}))
-                    << scene.name << ", pixel " << pixel;
-            }
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            const fast::Needs& compiled = fast::compiled_needs[i];
+            if (compiled == fast::compiled_for(needs)) seen[i] = true;
+            if ((compiled | needs) != compiled || compiled == fast::any_needs) continue;
+            for (std::uint32_t pixel = 0; pixel < width * height; ++pixel)
+                for (const Integrator integrator :
+                     {Integrator::path, Integrator::bdpt, Integrator::light}) {
+                    const fast::PathOptions options{1, 6, fast::Heuristic::balance};
+                    EXPECT_EQ(recorder.sample(compiled, integrator, options, {1, pixel, 0}),
+                              recorder.sample(fast::any_needs, integrator, options, {1, pixel, 0}))
+                        << scene.name << ", kernel " << i << ", pixel " << pixel;
+                }
+        }
     }
-    for (const auto& need : seen) EXPECT_TRUE(need[0] && need[1]) << "some kernel is never used";
+    for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_TRUE(seen[i]) << "no scene uses kernel " << i;
+}
+
+TEST(Needs, AreRoundedUpToTheSmallestCompiledOnesThatIncludeThem)
+{
+    const auto count = [](const fast::Needs& needs) {
+        return int{needs.spheres} + int{needs.specular} + int{needs.other_lights};
+    };
+    for (const bool spheres : {false, true})
+        for (const bool specular : {false, true})
+            for (const bool other_lights : {false, true}) {
+                const fast::Needs needs{spheres, specular, other_lights};
+                const fast::Needs chosen = fast::compiled_for(needs);
+                EXPECT_EQ(chosen | needs, chosen);
+                EXPECT_NE(std::ranges::find(fast::compiled_needs, chosen), fast::compiled_needs.end());
+                for (const fast::Needs& compiled : fast::compiled_needs)
+                    if ((compiled | needs) == compiled) {
+                        EXPECT_LE(count(chosen), count(compiled));
+                    }
+                int calls = 0;
+                fast::with_needs(needs, [&]<fast::Needs known>() {
+                    ++calls;
+                    EXPECT_EQ(known, chosen);
+                });
+                EXPECT_EQ(calls, 1);
+            }
+}
+
+TEST(Needs, OfARendererAreThoseThatItsKernelsAreCompiledFor)
+{
+    const auto needs_of = [](const char* scene, fast::Needs at_least = {}) {
+        return fast::host_renderer(our_scene(scene), width, height, short_paths(Integrator::path), 1,
+                                   fast::best_instruction_set(), at_least)
+            ->needs();
+    };
+    EXPECT_EQ(needs_of("mesh_knot"), fast::Needs{});
+    EXPECT_EQ(needs_of("cornell_diffuse"), (fast::Needs{true, true, false})); // spheres alone
+    EXPECT_EQ(needs_of("point_over_plane"), fast::any_needs);                 // another light alone
+    EXPECT_EQ(needs_of("mesh_knot", {false, true, false}), (fast::Needs{true, true, false}));
 }
 
 // scenes::requirements decides which kernel is used. Black lights require nothing.

@@ -47,7 +47,7 @@ using scenes::Vec3;
 constexpr int size = 24;
 constexpr std::uint64_t batches = 32;
 constexpr double bound = 7;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double roundoff = 0x1p-24;
 
 struct Spot {

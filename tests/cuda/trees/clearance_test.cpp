@@ -3,6 +3,7 @@
 #include "cuda/trees/clearance.h"
 
 #include "cuda/trees/surfaces.h"
+#include "tests/cuda/trees/float_limits.h"
 #include "tests/cuda/trees/triangles.h"
 
 #include <gtest/gtest.h>
@@ -19,10 +20,9 @@ using fast::Sphere;
 using fast::SurfaceTree;
 using fast::Triangle;
 using fast::Vec3;
+using fast_trees_test::infinity;
+using fast_trees_test::u;
 using trees_test::Random;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr double u = 0x1p-24;
 
 /// Surfaces, their tree, and points on them.
 struct World {

@@ -5,6 +5,7 @@
 
 #include "cuda/trees/sphere.h"
 #include "ref/trees/intersect.h"
+#include "tests/cuda/trees/float_limits.h"
 
 #include <algorithm>
 #include <array>
@@ -52,8 +53,6 @@ constexpr HitBounds impossible{false, false, 0, 0, 0};
 // over the length of the direction, whose largest component is 0.57 of the length.
 inline HitBounds hit_bounds(const fast::Ray& ray, const fast::Triangle& triangle, double slack = 0)
 {
-    constexpr double u = 0x1p-24;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const ref::Ray exact = exactly(ray);
     const auto v = exactly(triangle);
     const ref::ShearedRay sheared(exact);

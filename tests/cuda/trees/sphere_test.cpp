@@ -3,6 +3,7 @@
 #include "cuda/trees/sphere.h"
 
 #include "cuda/parallel/executor.h"
+#include "tests/cuda/trees/float_limits.h"
 #include "tests/cuda/trees/hit_bounds.h"
 #include "tests/ref/trees/meshes.h"
 
@@ -17,9 +18,8 @@ using fast::Ray;
 using fast::Sphere;
 using fast::Vec3;
 using fast_trees_test::HitBounds;
+using fast_trees_test::infinity;
 using trees_test::Random;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// A sphere of any size, near or far, and a ray whose line hits it in the middle, hits it only just,
 /// or only just misses it.

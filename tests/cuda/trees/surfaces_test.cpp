@@ -5,6 +5,7 @@
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/scene_geometry.h"
+#include "tests/cuda/trees/float_limits.h"
 #include "tests/cuda/trees/hit_bounds.h"
 #include "tests/cuda/trees/triangles.h"
 
@@ -23,9 +24,8 @@ using fast::Sphere;
 using fast::SurfaceTree;
 using fast::Triangle;
 using fast::Vec3;
+using fast_trees_test::infinity;
 using trees_test::Random;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 static_assert(std::is_trivially_copyable_v<fast::Surfaces<false>>);
 static_assert(std::is_trivially_copyable_v<fast::Surfaces<true>>);

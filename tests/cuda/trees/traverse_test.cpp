@@ -5,6 +5,7 @@
 
 #include "tests/cuda/trees/binary_tree.h"
 #include "tests/cuda/trees/build_on.h"
+#include "tests/cuda/trees/float_limits.h"
 #include "tests/cuda/trees/hit_bounds.h"
 #include "tests/cuda/trees/triangles.h"
 
@@ -20,12 +21,11 @@ using fast::Hit;
 using fast::Ray;
 using fast::Triangle;
 using fast::Vec3;
+using fast_trees_test::infinity;
 using fast_trees_test::linear_search;
 using fast_trees_test::Traceable;
+using fast_trees_test::u;
 using trees_test::Random;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr double u = 0x1p-24;
 
 TEST(IntersectTriangleInFloat, AgreesWithTheReferenceWithinItsRounding)
 {

@@ -2,6 +2,7 @@
 
 #include "cuda/trees/triangle_group.h"
 
+#include "tests/cuda/trees/float_limits.h"
 #include "tests/ref/trees/meshes.h"
 
 #include <gtest/gtest.h>
@@ -16,9 +17,8 @@ using fast::Ray;
 using fast::Triangle;
 using fast::TriangleGroup;
 using fast::Vec3;
+using fast_trees_test::infinity;
 using trees_test::Random;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 TriangleGroup group_of(const std::vector<Triangle>& triangles)
 {

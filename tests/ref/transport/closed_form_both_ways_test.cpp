@@ -15,7 +15,7 @@ namespace {
 using ref::Contribution;
 using ref::Rgb;
 using ref::Vec3;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Paths from a point light in glass to a scattering plane. Next event is never possible, so a path
 // tracer gives a black picture; only the light image finds these paths. With j reflections inside the

@@ -16,7 +16,7 @@ namespace {
 
 using ref::Rgb;
 using ref::Vec3;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The point where the camera's ray through a film point (in pixels) meets the plane z = 0, computed
 /// from the camera's data alone, without any code of ref/.

@@ -11,7 +11,7 @@ namespace {
 using ref::EmitterKind;
 using ref::Rgb;
 using ref::Vec3;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// All six kinds of emitters above a matte floor. The ball around the box [-1, 1]^3 has radius
 /// sqrt(3).

@@ -6,6 +6,8 @@
 #include "tests/ref/transport/known_light.h"
 #include "tests/ref/transport/scene_files.h"
 
+#include <gtest/gtest.h>
+
 namespace {
 
 using ref::Contribution;

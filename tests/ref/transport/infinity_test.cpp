@@ -13,7 +13,7 @@ namespace {
 using ref::Contribution;
 using ref::Rgb;
 using ref::Vec3;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // An empty scene has no extent that light from infinity could reach: the eye sees the sky by hitting
 // it, and no light walk starts there.

@@ -20,7 +20,7 @@ namespace transport_test {
 
 using scenes::Rgb;
 using scenes::Vec3;
-inline constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Line {
     Vec3 from;

@@ -14,7 +14,7 @@ namespace {
 
 using ref::Contribution;
 using ref::Rgb;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 class Splats : public testing::TestWithParam<ref::Integrator> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, Splats,

@@ -13,7 +13,7 @@ namespace transport_test {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Kind = Place::Kind;
 
 double largest(const Rgb& v)

@@ -18,7 +18,7 @@ namespace {
 using ref::Contribution;
 using ref::Rgb;
 using ref::Vec3;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A room of two matte walls, a mirror and a glass ball, otherwise open; without a light.
 scenes::Scene stage()

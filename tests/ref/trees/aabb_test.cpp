@@ -2,6 +2,8 @@
 
 #include "tests/ref/trees/boxes.h"
 
+#include <gtest/gtest.h>
+
 namespace {
 
 using ref::Aabb;

@@ -2,6 +2,8 @@
 
 #include "tests/ref/trees/meshes.h"
 
+#include <gtest/gtest.h>
+
 #include <numbers>
 
 namespace {

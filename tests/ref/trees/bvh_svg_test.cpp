@@ -2,6 +2,8 @@
 
 #include "tests/ref/trees/meshes.h"
 
+#include <gtest/gtest.h>
+
 namespace {
 
 std::size_t count(const std::string& text, const std::string& part)

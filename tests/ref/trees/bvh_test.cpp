@@ -7,6 +7,10 @@
 #include "ref/trees/radix_sort.h"
 #include "tests/ref/trees/boxes.h"
 
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
 #include <bit>
 #include <stdexcept>
 

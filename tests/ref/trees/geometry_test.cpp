@@ -5,6 +5,8 @@
 #include "ref/trees/rounding.h"
 #include "tests/ref/trees/meshes.h"
 
+#include <gtest/gtest.h>
+
 #include <limits>
 
 namespace {

@@ -5,6 +5,10 @@
 #include "ref/trees/geometry.h"
 #include "tests/ref/trees/meshes.h"
 
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include <limits>

@@ -5,6 +5,8 @@
 #include "ref/trees/bvh.h"
 #include "tests/ref/trees/boxes.h"
 
+#include <gtest/gtest.h>
+
 #include <functional>
 
 namespace {

@@ -2,6 +2,10 @@
 
 #include "tests/ref/trees/boxes.h"
 
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
 namespace {
 
 using ref::Aabb;

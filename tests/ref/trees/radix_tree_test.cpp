@@ -6,6 +6,10 @@
 #include "ref/trees/lauterbach.h"
 #include "tests/ref/trees/meshes.h"
 
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
 #include <numeric>
 
 namespace {

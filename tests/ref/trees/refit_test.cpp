@@ -4,6 +4,10 @@
 #include "ref/trees/is_valid_tree.h"
 #include "tests/ref/trees/boxes.h"
 
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
 #include <algorithm>
 #include <numeric>
 

@@ -7,6 +7,10 @@
 #include "ref/trees/quality.h"
 #include "tests/ref/trees/boxes.h"
 
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
 namespace {
 
 using ref::Aabb;

@@ -6,6 +6,8 @@
 #include "tests/ref/trees/boxes.h"
 #include "tests/ref/trees/linear_search.h"
 
+#include <gtest/gtest.h>
+
 namespace {
 
 using ref::Aabb;
