@@ -15,7 +15,7 @@ namespace fast {
 struct HostThreads : ThreadedExecutor {
     using ThreadedExecutor::ThreadedExecutor;
     InstructionSet instructions = InstructionSet::baseline;
-    std::vector<std::uint32_t> path_words; // of all threads: stages/trace_paths.h
+    std::vector<std::uint32_t> stage_words; // the queues of all threads
 };
 
 // launch_samples on a HostThreads.

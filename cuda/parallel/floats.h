@@ -230,6 +230,12 @@ Record<Floats> at(std::span<const Record<float>> elements, const Words& index)
     return std::bit_cast<Record<Floats>>(result);
 }
 
+inline Words at(std::span<const std::uint32_t> elements, const Words& index)
+{
+    const auto* const first = reinterpret_cast<const std::int32_t*>(elements.data());
+    return hn::BitCast(word_tag, hn::GatherIndex(int_tag, first, hn::BitCast(int_tag, index.v)));
+}
+
 inline Floats at(std::span<const float> elements, const Words& index)
 {
     return hn::GatherIndex(float_tag, elements.data(), hn::BitCast(int_tag, index.v));
@@ -295,6 +301,30 @@ void one_by_one(const Mask& mask, const Function& function)
 {
     for (std::uint32_t bits = bits_of(mask); bits != 0; bits &= bits - 1)
         function(std::countr_zero(bits));
+}
+
+/// Sets the elements of `index` where `mask`. If an index occurs twice, the last lane counts.
+template <template <class> class Record>
+void put_at(std::span<Record<float>> elements, const Words& index, const Mask& mask,
+            const Record<Floats>& value)
+{
+    constexpr std::size_t members = detail::member_count<Record<Floats>>;
+    const auto record = std::bit_cast<detail::Members<Record<Floats>>>(value);
+    alignas(HWY_MAX_BYTES) std::array<std::array<std::uint32_t, floats_at_once>, members> words;
+    alignas(HWY_MAX_BYTES) std::array<std::uint32_t, floats_at_once> places;
+    for (std::size_t i = 0; i < members; ++i) hn::Store(record[i].v, word_tag, words[i].data());
+    hn::Store(index.v, word_tag, places.data());
+    one_by_one(mask, [&](int lane) {
+        std::array<std::uint32_t, members> one;
+        for (std::size_t i = 0; i < members; ++i) one[i] = words[i][static_cast<std::size_t>(lane)];
+        elements[places[static_cast<std::size_t>(lane)]] = std::bit_cast<Record<float>>(one);
+    });
+}
+
+inline void put_at(std::span<std::uint32_t> elements, const Words& index, const Mask& mask,
+                   const Words& value)
+{
+    one_by_one(mask, [&](int lane) { elements[lane_of(index, lane)] = lane_of(value, lane); });
 }
 
 /// The quotient x / divisor; sets `remainder`.

@@ -69,6 +69,13 @@ HD const T& at(std::span<const T> elements, std::uint32_t index)
     return elements[index];
 }
 
+/// Sets element `index` where `mask`.
+template <class T>
+HD void put_at(std::span<T> elements, std::uint32_t index, bool mask, const T& value)
+{
+    if (mask) elements[index] = value;
+}
+
 HD inline float square_root(float x)
 {
     return std::sqrt(x);

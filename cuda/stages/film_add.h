@@ -17,4 +17,11 @@ HD inline void film_add(const FilmTarget& film, const Launch& launch, bool mask,
     film.own[slot] += sink.own();
 }
 
+/// Where `mask`, adds to any pixel as FilmSink::splat does.
+HD inline void film_splat(const FilmTarget& film, bool mask, std::uint32_t pixel, int s,
+                          const Rgb& value, float weight)
+{
+    if (mask) FilmSink(film, pixel).splat(pixel, s, value, weight);
+}
+
 } // namespace fast

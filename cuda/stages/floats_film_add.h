@@ -34,4 +34,12 @@ inline void film_add(const FilmTarget& film, const Launch& launch, const Mask& m
     });
 }
 
+inline void film_splat(const FilmTarget& film, const Mask& mask, const Words& pixel, int s,
+                       const Vec3Of<Floats>& value, const Floats& weight)
+{
+    one_by_one(mask, [&](int lane) {
+        film_splat(film, true, lane_of(pixel, lane), s, lane_of(value, lane), lane_of(weight, lane));
+    });
+}
+
 } // namespace fast

@@ -2,7 +2,6 @@
 
 // The stages (path_stages.h) for many indices at once.
 
-#include "cuda/parallel/executor.h"
 #include "cuda/parallel/floats.h"
 #include "cuda/stages/rows.h"
 
@@ -64,22 +63,12 @@ void push(const Queue<Record>& queue, const Mask& mask, const Record<Floats>& va
 /// Runs stages on the calling thread, for many indices at once.
 class FloatsExecutor {
 public:
-    /// `rays_together`: whether stages that trace rays are for many indices, too.
-    explicit FloatsExecutor(bool rays_together) : rays_together_(rays_together) {}
-
     template <class Stage>
     void operator()(std::uint32_t count, const Stage& stage) const
     {
-        if (traces_rays<Stage> && !rays_together_) {
-            SerialExecutor{}(count, stage);
-            return;
-        }
         for (std::uint32_t first = 0; first < count; first += floats_at_once)
             stage(FloatsAt{first, std::min(floats_at_once, count - first)});
     }
-
-private:
-    bool rays_together_;
 };
 
 } // namespace fast

@@ -13,10 +13,7 @@
 // The last three repeat for every vertex of the paths; trace_paths.h is that loop. Each sample gets the
 // same bits as from eye_subpath.h: the contributions of a sample are added in the same order.
 
-#include "cuda/stages/film_add.h"
-#include "cuda/stages/rows.h"
-#include "cuda/transport/eye_subpath.h"
-#include "cuda/transport/render_samples.h"
+#include "cuda/stages/stage_job.h"
 
 namespace fast {
 
@@ -32,41 +29,10 @@ struct PathStateOf {
     WordOf<F> slot;     // the index of the sample in the launch
 };
 
-/// A contribution that waits for the test of its ray.
-template <class F>
-struct WaitingOf {
-    CandidateOf<F> candidate;
-    WordOf<F> slot;
-};
-
-/// What all stages of a launch have in common.
-template <Needs needs>
-struct PathJob {
-    SceneView<needs> scene;
-    PathOptions options;
-    Launch launch;
-    FilmTarget film;
-
-    template <class F>
-    [[nodiscard]] HD SampleIdOf<F> id_of(const WordOf<F>& slot) const
-    {
-        WordOf<F> pixel;
-        const WordOf<F> sample = divided(slot, launch.pixels, pixel);
-        return {options.seed, pixel + launch.first_pixel, sample + launch.first_sample};
-    }
-    /// Adds to the samples of these slots, where `mask`.
-    template <class F>
-    HD void add(const MaskOf<F>& mask, const WordOf<F>& slot, int s, int t, const Vec3Of<F>& value,
-                const F& weight) const
-    {
-        film_add(film, launch, mask, slot, s, t, value, weight);
-    }
-};
-
 /// Over the samples of a block of a launch.
 template <Needs needs>
 struct Generate {
-    PathJob<needs> job;
+    StageJob<needs> job;
     std::uint32_t first_slot;
     Rows<PathStateOf> paths;
 
@@ -82,33 +48,10 @@ struct Generate {
     }
 };
 
-/// Over unfinished paths.
-template <Needs needs>
-struct Extend {
-    PathJob<needs> job;
-    Rows<PathStateOf> paths;
-    Rows<HitOf> hits; // of the same indices
-
-    template <class Index>
-    HD void operator()(const Index& index) const
-    {
-        using F = NumberTypeAt<Index>;
-        const PathStateOf<F> path = load(paths, index);
-        store(hits, index,
-              closest_hits(
-                  job.scene,
-                  RayOf<F>{path.origin, F(std::numeric_limits<float>::infinity()), path.direction},
-                  active_at(index)));
-    }
-};
-
-template <Needs needs>
-constexpr bool traces_rays<Extend<needs>> = true;
-
 /// Over unfinished paths, at their vertex n.
 template <Needs needs>
 struct Shade {
-    PathJob<needs> job;
+    StageJob<needs> job;
     int n;
     Rows<PathStateOf> paths;
     Rows<HitOf> hits;
@@ -194,26 +137,5 @@ private:
              result);
     }
 };
-
-/// Over the candidates of vertex n.
-template <Needs needs>
-struct TestShadow {
-    PathJob<needs> job;
-    int n;
-    Rows<WaitingOf> waiting;
-
-    template <class Index>
-    HD void operator()(const Index& index) const
-    {
-        using F = NumberTypeAt<Index>;
-        const WaitingOf<F> one = load(waiting, index);
-        const MaskOf<F> active = active_at(index);
-        job.add(active && !occluded_rays(job.scene, one.candidate.ray, active), one.slot, 1, n + 1,
-                one.candidate.value, one.candidate.weight);
-    }
-};
-
-template <Needs needs>
-constexpr bool traces_rays<TestShadow<needs>> = true;
 
 } // namespace fast

@@ -25,10 +25,6 @@ struct NumberAt<std::uint32_t> {
 template <class Index>
 using NumberTypeAt = typename NumberAt<Index>::Type;
 
-/// Whether a stage traces rays.
-template <class Stage>
-constexpr bool traces_rays = false;
-
 HD constexpr bool active_at(std::uint32_t /*index*/)
 {
     return true;

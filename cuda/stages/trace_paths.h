@@ -34,7 +34,7 @@ public:
     /// Traces the samples first_slot ... first_slot + count - 1 of a launch. `run` executes each stage
     /// and returns when it is done.
     template <Needs needs, class Run>
-    void trace(Run&& run, const PathJob<needs>& job, std::uint32_t first_slot, std::uint32_t count)
+    void trace(Run&& run, const StageJob<needs>& job, std::uint32_t first_slot, std::uint32_t count)
     {
         for (std::uint32_t i = 0; i < count; ++i) job.film.own[first_slot + i] = Rgb(0.0f);
         run(count, Generate<needs>{job, first_slot, paths_[0]});
@@ -43,10 +43,10 @@ public:
         for (int n = 1; n <= job.options.max_edges && count > 0; ++n) {
             going_on = 0;
             candidates = 0;
-            run(count, Extend<needs>{job, paths_[0], hits_});
+            run(count, Extend<needs, PathStateOf>{job, paths_[0], hits_});
             run(count,
                 Shade<needs>{job, n, paths_[0], hits_, {paths_[1], &going_on}, {waiting_, &candidates}});
-            run(candidates, TestShadow<needs>{job, n, waiting_});
+            run(candidates, TestShadow<needs>{job, 1, n + 1, waiting_});
             std::swap(paths_[0], paths_[1]);
             count = going_on;
         }
