@@ -6,7 +6,7 @@
 // Builds start from boxes that are already in memory; "hploc" is morton63 and the further work. With
 // more than one thread the elapsed time is measured, otherwise the CPU time. SAH costs: C_trav =
 // C_isect = 1. For rays also: nodes and leaves (groups of a wide tree) per ray, and nodes if no hit
-// stopped the traversal.
+// stopped the traversal; and the nodes and groups of a wide tree.
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/hploc.h"
@@ -40,6 +40,7 @@ void build(benchmark::State& state, const scenes::Scene& scene, unsigned threads
     }
     state.counters["sah_cost"] =
         fast::sah_cost(cluster ? clustered.nodes() : std::as_const(tree).nodes());
+    if (cluster) state.counters["height"] = clustered.height();
 }
 
 /// Rays from outside to points of the bounding box, and in random directions from the hits of these
@@ -141,6 +142,15 @@ const fast::WideTreeView& nodes_of(const fast::Surfaces<false>& tree)
     return tree.tree;
 }
 
+void count_parts(benchmark::State& /*state*/, const fast_trees_test::TreeView& /*tree*/) {}
+
+/// The size of a wide tree.
+void count_parts(benchmark::State& state, const fast::Surfaces<false>& tree)
+{
+    state.counters["wide_nodes"] = static_cast<double>(tree.tree.nodes.size());
+    state.counters["groups"] = static_cast<double>(tree.tree.groups.size());
+}
+
 /// Nodes and leaves (or groups) that a ray visits on average, and the nodes if no hit stops the
 /// traversal.
 template <class View>
@@ -181,6 +191,7 @@ void trace(benchmark::State& state, const View& tree, const std::vector<fast::Ra
     const auto traced = static_cast<double>(state.iterations()) * static_cast<double>(rays.size());
     state.counters["rays"] = benchmark::Counter(traced, benchmark::Counter::kIsRate);
     count_visits(state, tree, rays);
+    count_parts(state, tree);
 }
 
 std::vector<ref::Ray> in_double(const std::vector<fast::Ray>& rays)

@@ -65,4 +65,29 @@ if command -v nvcc >/dev/null; then
     ! bash "$here/device_headers.sh" "$root" nvcc >/dev/null 2>&1 || { echo 'device_headers.sh should fail'; failures=$((failures + 1)); }
     rm "$root/cuda/a.cuh"
 fi
+# expect_kernels VERDICT WHAT: instruction_sets.sh on the file of one instruction set
+expect_kernels() {
+    local verdict=pass
+    bash "$here/instruction_sets.sh" "$root" nm >/dev/null 2>&1 || verdict="status $?"
+    if [ "$verdict" != "$1" ]; then
+        echo "instruction_sets.sh should give \"$1\" for $2, not \"$verdict\""
+        failures=$((failures + 1))
+    fi
+}
+kernels=$root/cuda/plumbline_cuda_avx2.o
+expect_kernels 'status 77' 'a build without kernels'
+echo 'inline int in_many_files() { return 1; } extern "C" int plumbline_kernels_avx2_path() { return in_many_files(); }' |
+    c++ -O0 -x c++ -c -o "$kernels.all" -
+cp "$kernels.all" "$kernels"
+expect_kernels 'status 1' 'an inline function that is a weak symbol'
+objcopy --wildcard --keep-global-symbol='plumbline_kernels_avx2_*' "$kernels.all" "$kernels"
+expect_kernels pass 'an inline function that is a local symbol'
+objcopy --globalize-symbol=_Z13in_many_filesv "$kernels"
+expect_kernels 'status 1' 'an inline function that is a global symbol'
+objcopy --wildcard --keep-global-symbol='nothing' "$kernels.all" "$kernels"
+expect_kernels 'status 1' 'kernels that are not visible'
+rm "$kernels"
+objcopy --wildcard --keep-global-symbol='plumbline_kernels_avx2_*' "$kernels.all" "$root/cuda/plumbline_cuda_avx512.o"
+expect_kernels 'status 1' 'the name of another instruction set'
+rm "$root"/cuda/plumbline_cuda_*
 exit $((failures > 0))
