@@ -3,7 +3,7 @@
 // Traverses a wide tree along many rays together: every node and triangle that some of them need is
 // tested for all. That is worth while as long as several rays need it: near the root, in a small tree,
 // or if the rays are coherent. Where few rays are left, each goes on alone [Benthin, Wald, Woop, Ernst,
-// Mattausch 2012]. The queries (floats_trace_rays.h) give the same bits as for single rays.
+// Mark 2012]. The queries (floats_trace_rays.h) give the same bits as for single rays.
 
 #include "cuda/stages/floats_triangle.h"
 #include "cuda/trees/rounding.h"
@@ -59,8 +59,8 @@ public:
     }
 
 private:
-    std::array<Floats, 3> reciprocal_, entering_, leaving_;
-    std::array<Mask, 3> descends_;
+    Floats reciprocal_[3], entering_[3], leaving_[3];
+    Mask descends_[3];
 };
 
 /// Calls test(group, here) for every group whose box some rays of `active` enter at a t <= their limit,

@@ -113,8 +113,8 @@ public:
     /// `vertices`: the same for all rays, or one triangle for each.
     template <class V>
     ShearedTriangles(const ShearedRays& rays, const V (&vertices)[3])
-        : A_(of(rays, vertices[0])), B_(of(rays, vertices[1])), C_(of(rays, vertices[2])),
-          scale_(rays.scale()), u_(edge(C_, B_)), v_(edge(A_, C_)), w_(edge(B_, A_))
+        : a_(of(rays, vertices[0])), b_(of(rays, vertices[1])), c_(of(rays, vertices[2])),
+          scale_(rays.scale()), u_(edge(c_, b_)), v_(edge(a_, c_)), w_(edge(b_, a_))
     {}
 
     /// Where the ray's line may pass through the triangle: everywhere that it does, and where an edge
@@ -124,16 +124,16 @@ public:
     /// Where `candidates`: whether the ray hits at 0 < t < limit, and if so, its t.
     [[nodiscard]] Mask hit(Mask candidates, const Floats& limit, Floats& t) const
     {
-        const Doubles U = edge_in_double(C_, B_);
-        const Doubles V = edge_in_double(A_, C_);
-        const Doubles W = edge_in_double(B_, A_);
+        const Doubles U = edge_in_double(c_, b_);
+        const Doubles V = edge_in_double(a_, c_);
+        const Doubles W = edge_in_double(b_, a_);
         if (any(candidates && (u_ == 0.0f || v_ == 0.0f || w_ == 0.0f)))
             candidates = candidates && of_one_sign(select(u_ == 0.0f, U.rounded(), u_),
                                                    select(v_ == 0.0f, V.rounded(), v_),
                                                    select(w_ == 0.0f, W.rounded(), w_));
         const Doubles det = U + V + W;
         const Doubles T =
-            U * Doubles(scale_ * A_.z) + V * Doubles(scale_ * B_.z) + W * Doubles(scale_ * C_.z);
+            U * Doubles(scale_ * a_.z) + V * Doubles(scale_ * b_.z) + W * Doubles(scale_ * c_.z);
         const Mask behind = mask_of_bits(det.zero() | (T.negative() ^ det.negative()));
         t = (T / det).rounded();
         return candidates && !behind && t > 0.0f && t < limit;
@@ -142,9 +142,9 @@ public:
     /// The weights of the second and the third vertex, of a hit.
     void weights(Floats& b1, Floats& b2) const
     {
-        const Doubles U = edge_in_double(C_, B_);
-        const Doubles V = edge_in_double(A_, C_);
-        const Doubles W = edge_in_double(B_, A_);
+        const Doubles U = edge_in_double(c_, b_);
+        const Doubles V = edge_in_double(a_, c_);
+        const Doubles W = edge_in_double(b_, a_);
         const Doubles det = U + V + W;
         b1 = (V / det).rounded();
         b2 = (W / det).rounded();
@@ -171,7 +171,7 @@ private:
         return !(negative && positive);
     }
 
-    Vec3Of<Floats> A_, B_, C_;
+    Vec3Of<Floats> a_, b_, c_;
     Floats scale_;
     Floats u_, v_, w_;
 };

@@ -212,7 +212,7 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> leaf_links() const { return leaf_links_.first(count_); }
 
     /// Waits for the build. Returns the number of edges from the root to the deepest leaf. No bound on
-    /// it is known, and traverse.h cannot traverse a tree higher than `deepest_tree`. (Many boxes
+    /// it is known, and a traversal cannot go deeper than `deepest_tree` levels. (Many boxes
     /// nested in each other give such a tree; the height of the radix tree does not depend on boxes.)
     [[nodiscard]] std::uint32_t height() const { return count_ == 0 ? 0 : top_.read(1)[0].height; }
 

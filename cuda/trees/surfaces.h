@@ -135,11 +135,14 @@ private:
         Aabb bounds = empty_aabb();
         for (const Aabb& box : on_host) bounds = unite(bounds, box);
         if (count > 0) diagonal_ = glm::length(bounds.upper - bounds.lower);
+        // The better tree, unless it is too deep: the height of the radix tree is bounded, its height is
+        // not (hploc.h).
         Hploc clustered(memory, count);
         clustered.build(executor, boxes.all(), tree);
-        const bool fits = clustered.height() <= static_cast<std::uint32_t>(deepest_tree);
-        return {memory, executor, fits ? std::as_const(clustered).nodes() : std::as_const(tree).nodes(),
-                tree.primitives(), given.all()};
+        WideTree wide(memory, executor, std::as_const(clustered).nodes(), tree.primitives(),
+                      given.all());
+        if (wide.levels() <= deepest_tree) return wide;
+        return {memory, executor, std::as_const(tree).nodes(), tree.primitives(), given.all()};
     }
 
     std::uint32_t triangle_count_;

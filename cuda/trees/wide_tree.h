@@ -176,6 +176,7 @@ public:
             executor(next - wide_nodes,
                      FindWideNodes{nodes, wide_nodes, roles[0].all(), found.all(), counts.all()});
             wide_nodes = next;
+            ++levels_;
         }
         const std::uint32_t groups = counts.read(2)[1];
 
@@ -198,6 +199,8 @@ public:
         bounds_ = unite(root.bounds[0], root.bounds[1]);
     }
 
+    /// Of nodes; a traversal needs space for them (traversal_stack.h).
+    [[nodiscard]] int levels() const { return levels_; }
     /// Stays good while the tree lives.
     [[nodiscard]] WideTreeView view() const { return {nodes_.all(), groups_.all(), bounds_}; }
 
@@ -205,6 +208,7 @@ private:
     Buffer<WideNode> nodes_;
     Buffer<TriangleGroup> groups_;
     Aabb bounds_ = empty_aabb();
+    int levels_ = 0;
 };
 
 } // namespace fast
