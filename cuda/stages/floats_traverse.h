@@ -15,8 +15,8 @@
 
 namespace fast {
 
-/// A subtree that no more rays enter is traversed by each of them alone.
-constexpr int few_rays = 2;
+/// A node that no more rays enter is traversed by each of them alone.
+constexpr int few_rays = 3 * static_cast<int>(floats_at_once) / 8;
 
 /// In a tree of no more nodes all rays stay together to the end.
 constexpr std::size_t small_tree = 16;

@@ -240,4 +240,15 @@ HD MaskOf<F> inner_connection_candidate(const SceneView<needs>& scene, const Pat
     return active;
 }
 
+/// The same, with the test of its ray.
+template <Needs needs, class Sink>
+HD void inner_connection(const SceneView<needs>& scene, const PathOptions& options, int s,
+                         const LightVertex& y, const EyeVertex& z, Sink& sink)
+{
+    CandidateOf<float> candidate;
+    if (inner_connection_candidate<needs, float>(scene, options, s, y, z, true, candidate) &&
+        !occluded(scene.geometry, candidate.ray))
+        sink.add(s, z.t, candidate.value, candidate.weight);
+}
+
 } // namespace fast

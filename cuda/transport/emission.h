@@ -41,14 +41,14 @@ HD void emission_of_others(const SceneView<needs>& scene, const Emitter& emitter
                            const Uniforms& position, const Uniforms& direction,
                            SampledEmission& emission)
 {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     const Light& light = scene.lights[emission.emitter];
     if (at_infinity<needs>(emitter)) {
         emission.towards = sample_towards(emitter, light, position[1], position[2]);
         const Frame frame(emission.towards);
         Vec3 disc(0.0f, 0.0f, 2.0f);
         on_circle(std::sqrt(direction[0]), direction[1], disc.x, disc.y);
-        emission.ray = {scene.radius * frame.to_world(disc), infinity, -emission.towards};
+        emission.ray = {scene.radius * frame.to_world(disc), std::numeric_limits<float>::infinity(),
+                        -emission.towards};
         emission.pdf_direction = pdf_area_disc(scene);
     } else {
         SourceDirection drawn{};
@@ -56,7 +56,8 @@ HD void emission_of_others(const SceneView<needs>& scene, const Emitter& emitter
         emission.pdf_direction = drawn.pdf_solid_angle;
         emission.alpha = emitter.emitted * drawn.falloff;
         emission.end.position = light.position;
-        emission.ray = {leave_end(scene, light.position, light.contacts, w), infinity, w};
+        emission.ray = {leave_end(scene, light.position, light.contacts, w),
+                        std::numeric_limits<float>::infinity(), w};
     }
     emission.alpha = (at_infinity<needs>(emitter) ? emitter.emitted : emission.alpha) /
                      (pdf_emission_position<needs>(emitter) * emission.pdf_direction);

@@ -60,13 +60,8 @@ HD void eye_subpath(const SceneView<needs>& scene, const PathOptions& options, c
             const EyeVertex z = eye_vertex<integrator, float>(options.heuristic, v);
             next_event<needs, integrator>(scene, options, id, z, sink);
             if constexpr (integrator != Integrator::path)
-                for (int s = 2; s <= count + 1 && s + v.n <= options.max_edges; ++s) {
-                    CandidateOf<float> candidate{};
-                    if (inner_connection_candidate<needs, float>(scene, options, s, kept[s - 2], z, true,
-                                                                 candidate) &&
-                        !occluded(scene.geometry, candidate.ray))
-                        sink.add(s, z.t, candidate.value, candidate.weight);
-                }
+                for (int s = 2; s <= count + 1 && s + v.n <= options.max_edges; ++s)
+                    inner_connection(scene, options, s, kept[s - 2], z, sink);
         },
         [&](const Leg& last, int n, const Rgb& alpha, bool previous_joinable, const RunningSums& sums) {
             show_miss(sink, Transport::radiance, last);
