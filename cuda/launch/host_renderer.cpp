@@ -9,8 +9,18 @@ namespace {
 constexpr std::uint32_t most_per_block = 32;
 
 /// A constant number of samples per launch, so that on one thread even sums of floats are always the
-/// same.
-constexpr LaunchLimits limits{8192, 8192, std::size_t{1} << 30};
+/// same. At its end each thread waits for the last block of the others (host_stages.h): a launch has many
+/// blocks.
+constexpr LaunchLimits limits{1u << 16, 1u << 16, std::size_t{1} << 28};
+
+/// Vectors of floats read records by an index of 31 bits into their words (cuda/parallel/floats.h): of
+/// more triangles than this the stages for one index take care.
+constexpr std::size_t most_for_vectors = 0x7fff'ffff / (sizeof(Triangle) / sizeof(float));
+
+InstructionSet usable_for(const scenes::Scene& scene, InstructionSet wanted)
+{
+    return scenes::primitive_count(scene) > most_for_vectors ? InstructionSet::baseline : wanted;
+}
 
 /// The parts of a renderer on the host. The order of the members matters.
 struct HostParts {
@@ -26,7 +36,7 @@ class HostRenderer : private HostParts, public BatchRenderer<HostThreads> {
 public:
     HostRenderer(const scenes::Scene& scene, int width, int height, const images::RenderOptions& options,
                  unsigned threads, InstructionSet instructions, Needs at_least)
-        : HostParts(threads, instructions),
+        : HostParts(threads, usable_for(scene, instructions)),
           BatchRenderer(memory, executor, limits, scene, width, height, options, at_least)
     {}
 };
