@@ -9,8 +9,8 @@ namespace {
 constexpr std::uint32_t most_per_block = 32;
 
 /// A constant number of samples per launch, so that on one thread even sums of floats are always the
-/// same. At its end each thread waits for the last block of the others (host_stages.h): a launch has many
-/// blocks.
+/// same. At its end each thread waits for the last block of the others (host_stages.h): a launch has
+/// many blocks.
 constexpr LaunchLimits limits{1u << 16, 1u << 16, std::size_t{1} << 28};
 
 /// Vectors of floats read records by an index of 31 bits into their words (cuda/parallel/floats.h): of

@@ -22,10 +22,10 @@ struct NotCounted {
 /// Calls test(group) for every group of triangles at or below `next` whose box the ray enters at a t <=
 /// `limit`, nearer children first. `next`: a node, or a group with leaf_bit; its own box is not tested.
 /// `test` returns the new limit: the t of the closest hit so far, or a negative number to stop. Calls
-/// count() for every node.
+/// count() for every test of a node. This form keeps every child that is still to be visited.
 template <class Test, class Count = NotCounted>
-HD void traverse_below(const WideTreeView& tree, std::uint32_t next, const WideSlabs& slabs, float limit,
-                       const Test& test, const Count& count = {})
+HD void traverse_with_children(const WideTreeView& tree, std::uint32_t next, const WideSlabs& slabs,
+                               float limit, const Test& test, const Count& count = {})
 {
     TraversalStack stack;
     for (;;) {
@@ -63,6 +63,63 @@ HD void traverse_below(const WideTreeView& tree, std::uint32_t next, const WideS
         stack.sort_last(pushed);
         stack.pop(limit, next);
     }
+}
+
+/// The same, keeping of each node on the way only which children are still to be visited: an element per
+/// level. When a node comes up again, its boxes are tested again, against the smaller limit. That is
+/// more work and less memory, of which every thread of a GPU has its own.
+template <class Test, class Count = NotCounted>
+HD void traverse_with_masks(const WideTreeView& tree, std::uint32_t next, const WideSlabs& slabs,
+                            float limit, const Test& test, const Count& count = {})
+{
+    struct Unfinished {
+        std::uint32_t node;
+        LaneBits children; // not yet visited
+    };
+    constexpr LaneBits all = (1u << most_children) - 1;
+    Unfinished stack[deepest_tree];
+    int height = 0;
+    LaneBits unvisited = all;
+    for (;;) {
+        if (is_leaf(next)) {
+            limit = test(next & ~leaf_bit);
+            if (limit < 0.0f) return;
+        } else {
+            count();
+            const WideNode& node = tree.nodes[next];
+            Lanes near;
+            const LaneBits entered = slabs.entered(node, limit, near) & unvisited;
+            int nearest = -1;
+            float entry = 0.0f;
+            for (int c = 0; c < most_children; ++c)
+                if ((entered >> c & 1) != 0 && (nearest < 0 || near[c] < entry)) {
+                    nearest = c;
+                    entry = near[c];
+                }
+            if (nearest >= 0) {
+                const LaneBits others = entered & ~(1u << nearest);
+                if (others != 0) stack[height++] = {next, others};
+                next = node.children[nearest];
+                unvisited = all;
+                continue;
+            }
+        }
+        if (height == 0) return;
+        --height;
+        next = stack[height].node;
+        unvisited = stack[height].children;
+    }
+}
+
+/// The form for this processor.
+template <class Test, class Count = NotCounted>
+HD void traverse_below(const WideTreeView& tree, std::uint32_t next, const WideSlabs& slabs, float limit,
+                       const Test& test, const Count& count = {})
+{
+    if constexpr (lanes_at_once)
+        traverse_with_children(tree, next, slabs, limit, test, count);
+    else
+        traverse_with_masks(tree, next, slabs, limit, test, count);
 }
 
 /// The same for the whole tree. A tree that is one group is always tested.

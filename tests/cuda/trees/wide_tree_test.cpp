@@ -149,6 +149,40 @@ RC_GTEST_PROP(WideTree, IsTheSameForEveryExecutor, ())
     }
 }
 
+/// The closest hit by the traversal that a GPU uses.
+fast::Hit intersect_with_masks(const fast::Surfaces<false>& surfaces, const fast::Ray& ray)
+{
+    fast::Hit best{ray.t_max, fast::no_primitive, 0, 0};
+    const fast::ShearedRay sheared(ray);
+    const std::uint32_t root = surfaces.tree.nodes.empty() ? fast::leaf_bit : 0;
+    if (surfaces.tree.groups.empty()) return best;
+    traverse_with_masks(surfaces.tree, root, fast::WideSlabs{fast::Slabs(ray, surfaces.tree.bounds)},
+                        ray.t_max, [&](std::uint32_t group) {
+                            intersect_group(surfaces, group, ray, sheared, [&](const fast::Hit& hit) {
+                                if (comes_before(hit, best)) best = hit;
+                            });
+                            return best.t;
+                        });
+    return best;
+}
+
+RC_GTEST_PROP(WideTree, BothTraversalsFindTheSameHits, ())
+{
+    Random random(*rc::gen::arbitrary<std::uint64_t>());
+    Narrow narrow(*rc::gen::inRange<std::size_t>(0, 1000), random);
+    const WideTree tree = narrow.widened(narrow.executor);
+    const fast::Surfaces<false> surfaces{
+        tree.view(), {}, static_cast<std::uint32_t>(narrow.triangles.size())};
+    for (int i = 0; i < 50; ++i) {
+        const fast::Ray ray{Vec3(2.0 * random.in_cube()), std::numeric_limits<float>::infinity(),
+                            Vec3(random.direction())};
+        const fast::Hit hit = intersect(surfaces, ray);
+        const fast::Hit other = intersect_with_masks(surfaces, ray);
+        RC_ASSERT(hit.primitive == other.primitive);
+        RC_ASSERT(hit.t == other.t);
+    }
+}
+
 /// Appends a balanced tree over `count` new leaves with equal boxes; returns its number as a child.
 std::uint32_t balanced(std::vector<Node>& nodes, std::uint32_t& leaves, std::uint32_t count,
                        const Aabb& box)
@@ -195,6 +229,7 @@ TEST(WideTree, TheDeepestOneFitsTheStack)
         const fast::Hit expected = fast_trees_test::linear_search(triangles, ray);
         EXPECT_EQ(hit.primitive, expected.primitive);
         EXPECT_EQ(hit.t, expected.t);
+        EXPECT_EQ(intersect_with_masks(surfaces, ray).primitive, expected.primitive);
     }
 }
 
