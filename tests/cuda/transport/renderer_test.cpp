@@ -244,19 +244,22 @@ TEST(BatchRenderer, UnweightedLayersHoldWhatEachStrategyFound)
 
 TEST(BatchRenderer, StopsBetweenLaunchesAndGoesOnAsIfNothingHadBeen)
 {
-    const auto renderer =
-        fast::host_renderer(our_scene("cornell_diffuse"), 100, 100, short_paths(Integrator::bdpt), 1);
-    const images::Image whole = renderer->render_batch(2, {})->mean;
+    fast::HostMemory memory;
+    fast::HostThreads executor(1);
+    fast::BatchRenderer renderer(memory, executor, {8192, 8192, std::size_t{1} << 30},
+                                 our_scene("cornell_diffuse"), 100, 100, short_paths(Integrator::bdpt),
+                                 {}); // five launches
+    const images::Image whole = renderer.render_batch(2, {})->mean;
     int asked = 0;
     std::vector<double> parts;
     const images::Monitor monitor{[&](double part) { parts.push_back(part); },
                                   [&] { return ++asked > 2; }};
-    EXPECT_FALSE(renderer->render_batch(2, monitor));
+    EXPECT_FALSE(renderer.render_batch(2, monitor));
     ASSERT_EQ(parts.size(), 2u);
     EXPECT_GT(parts[0], 2.0);
     EXPECT_LT(parts[0], parts[1]);
     EXPECT_LT(parts[1], 3.0);
-    EXPECT_TRUE(renderer->render_batch(2, {})->mean == whole);
+    EXPECT_TRUE(renderer.render_batch(2, {})->mean == whole);
 }
 
 TEST(BatchRenderer, RefusesOptionsThatContradictEachOther)
