@@ -13,15 +13,6 @@ constexpr std::uint32_t most_per_block = 32;
 /// many blocks.
 constexpr LaunchLimits limits{1u << 16, 1u << 16, std::size_t{1} << 28};
 
-/// Vectors of floats read records by an index of 31 bits into their words (cuda/parallel/floats.h): of
-/// more triangles than this the stages for one index take care.
-constexpr std::size_t most_for_vectors = 0x7fff'ffff / (sizeof(Triangle) / sizeof(float));
-
-InstructionSet usable_for(const scenes::Scene& scene, InstructionSet wanted)
-{
-    return scenes::primitive_count(scene) > most_for_vectors ? InstructionSet::baseline : wanted;
-}
-
 /// The parts of a renderer on the host. The order of the members matters.
 struct HostParts {
     HostParts(unsigned threads, InstructionSet instructions) : executor(threads, most_per_block)
@@ -36,7 +27,7 @@ class HostRenderer : private HostParts, public BatchRenderer<HostThreads> {
 public:
     HostRenderer(const scenes::Scene& scene, int width, int height, const images::RenderOptions& options,
                  unsigned threads, InstructionSet instructions, Needs at_least)
-        : HostParts(threads, usable_for(scene, instructions)),
+        : HostParts(threads, instructions),
           BatchRenderer(memory, executor, limits, scene, width, height, options, at_least)
     {}
 };

@@ -7,6 +7,7 @@
 
 #include "cuda/parallel/number.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -216,17 +217,61 @@ Record select(const Mask& mask, const Record& a, const Record& b)
     return std::bit_cast<Record>(result);
 }
 
-/// Elements `index` of `elements`, whose members have 32 bits each. All lanes must have an element.
+namespace detail {
+
+/// From `first[lane]`, four words each, for the lanes k, 4 + k, 8 + k, ...: the blocks of four words
+/// that a register of so many lanes consists of.
+template <std::size_t lanes, class Pointers>
+auto load_blocks(const Pointers& first, std::size_t k)
+{
+    constexpr hn::CappedTag<std::uint32_t, lanes> tag;
+    if constexpr (lanes <= 4)
+        return hn::LoadU(tag, first[k]);
+    else
+        return hn::Combine(tag, load_blocks<lanes / 2>(first, k + lanes / 2),
+                           load_blocks<lanes / 2>(first, k));
+}
+
+/// From `first[lane]`, four words each: the vectors of the first, second, third and fourth words.
+inline std::array<Words, 4>
+load_transposed(const std::array<const std::uint32_t*, floats_at_once>& first)
+{
+    const auto a = load_blocks<floats_at_once>(first, 0);
+    const auto b = load_blocks<floats_at_once>(first, 1);
+    const auto c = load_blocks<floats_at_once>(first, 2);
+    const auto d = load_blocks<floats_at_once>(first, 3);
+    const auto ac_low = hn::InterleaveLower(word_tag, a, c);
+    const auto bd_low = hn::InterleaveLower(word_tag, b, d);
+    const auto ac_high = hn::InterleaveUpper(word_tag, a, c);
+    const auto bd_high = hn::InterleaveUpper(word_tag, b, d);
+    return {Words(hn::InterleaveLower(word_tag, ac_low, bd_low)),
+            Words(hn::InterleaveUpper(word_tag, ac_low, bd_low)),
+            Words(hn::InterleaveLower(word_tag, ac_high, bd_high)),
+            Words(hn::InterleaveUpper(word_tag, ac_high, bd_high))};
+}
+
+} // namespace detail
+
+/// Elements `index` of `elements`, whose members have 32 bits each. All lanes must have an element. (One
+/// gather per member takes longer: processors load its lanes one after the other.)
 template <template <class> class Record>
 Record<Floats> at(std::span<const Record<float>> elements, const Words& index)
 {
     constexpr std::size_t members = detail::member_count<Record<Floats>>;
-    static_assert(sizeof(Record<float>) == 4 * members);
-    const auto* const first = reinterpret_cast<const std::int32_t*>(elements.data());
-    const auto place = hn::BitCast(int_tag, (index * Words(members)).v);
+    static_assert(sizeof(Record<float>) == 4 * members && members >= 4);
+    alignas(HWY_MAX_BYTES) std::array<std::uint32_t, floats_at_once> places;
+    hn::Store(index.v, word_tag, places.data());
+    const auto* const first = reinterpret_cast<const std::uint32_t*>(elements.data());
+    std::array<const std::uint32_t*, floats_at_once> rows;
     detail::Members<Record<Floats>> result;
-    for (std::size_t i = 0; i < members; ++i)
-        result[i] = hn::BitCast(word_tag, hn::GatherIndex(int_tag, first + i, place));
+    for (std::size_t done = 0; done < members; done += 4) {
+        // The last four members overlap with those before: nothing is read behind the element.
+        const std::size_t from = std::min(done, members - 4);
+        for (std::size_t lane = 0; lane < floats_at_once; ++lane)
+            rows[lane] = first + places[lane] * members + from;
+        const std::array<Words, 4> four = detail::load_transposed(rows);
+        for (std::size_t i = 0; i < 4; ++i) result[from + i] = four[i];
+    }
     return std::bit_cast<Record<Floats>>(result);
 }
 
