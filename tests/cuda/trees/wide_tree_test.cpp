@@ -205,7 +205,7 @@ TEST(WideTree, TheDeepestOneFitsTheStack)
     std::uint32_t leaves = 0;
     const Aabb larger{Vec3(-2), Vec3(2)};
     const Aabb smaller{Vec3(-1), Vec3(1)};
-    for (int level = 0; level < fast::deepest_tree; ++level) {
+    for (int level = 1; level < fast::deepest_tree; ++level) {
         const auto at = static_cast<std::uint32_t>(nodes.size());
         nodes.push_back({{smaller, larger}, {0, 0}, fast::no_node, 0});
         nodes[at].children[1] = balanced(nodes, leaves, many, larger);
@@ -221,6 +221,7 @@ TEST(WideTree, TheDeepestOneFitsTheStack)
     fast::HostMemory memory;
     fast::SerialExecutor executor;
     const WideTree tree(memory, executor, nodes, primitives, triangles);
+    ASSERT_EQ(tree.levels(), fast::deepest_tree);
     for (int i = 0; i < 100; ++i) {
         const fast::Ray ray{Vec3(0.01 * random.in_cube()), std::numeric_limits<float>::infinity(),
                             Vec3(random.direction())};
