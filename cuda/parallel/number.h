@@ -173,10 +173,11 @@ HD Vec3Of<F> magnitude_of(const Vec3Of<F>& v)
     return {magnitude_of(v.x), magnitude_of(v.y), magnitude_of(v.z)};
 }
 
+/// Whether no coordinate is infinite or NaN: for those x - x is NaN.
 template <class F>
-HD MaskOf<F> is_finite_vector(const Vec3Of<F>& v)
+HD MaskOf<F> is_finite(const Vec3Of<F>& v)
 {
-    return is_finite_number(v.x) && is_finite_number(v.y) && is_finite_number(v.z);
+    return v.x - v.x == 0.0f && v.y - v.y == 0.0f && v.z - v.z == 0.0f;
 }
 
 } // namespace fast

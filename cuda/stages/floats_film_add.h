@@ -12,7 +12,7 @@ inline void film_add(const FilmTarget& film, const Launch& launch, const Mask& m
 {
     if (none(mask)) return;
     const Vec3Of<Floats> sum = weight * value;
-    const Mask finite = is_finite_vector(value) && is_finite_number(weight);
+    const Mask finite = is_finite(value) && is_finite_number(weight);
     if (!film.layers.empty() || any(mask && !finite)) {
         one_by_one(mask, [&](int lane) {
             film_add(film, launch, true, lane_of(slot, lane), s, t, lane_of(value, lane),

@@ -7,13 +7,6 @@
 
 namespace fast {
 
-/// Whether the rays have a position and a direction (surfaces.h: is_a_ray).
-inline Mask are_rays(const RayOf<Floats>& rays)
-{
-    return is_finite_vector(rays.origin) && is_finite_vector(rays.direction) &&
-           !is_black(rays.direction);
-}
-
 /// Calls found(rays, t, primitive) for every primitive of a group and the rays of `here` that hit it at
 /// 0 < t < limit.
 template <bool has_spheres, class Found>
@@ -77,7 +70,7 @@ HitOf<Floats> closest_hits(const SceneView<needs>& scene, const RayOf<Floats>& r
             put_lane(best.primitive, lane, hit.primitive);
         }
     };
-    traverse_together(surfaces.tree, rays, active && are_rays(rays), best.t, together, alone);
+    traverse_together(surfaces.tree, rays, active && is_a_ray(rays), best.t, together, alone);
 
     const Mask on_triangle = active && best.primitive != Words(no_primitive) &&
                              best.primitive < Words(surfaces.triangle_count);
@@ -123,7 +116,7 @@ Mask occluded_rays(const SceneView<needs>& scene, const RayOf<Floats>& rays, con
         }
         if (hit != 0) stop(mask_of_bits(hit));
     };
-    traverse_together(surfaces.tree, rays, active && are_rays(rays), limit, together, alone);
+    traverse_together(surfaces.tree, rays, active && is_a_ray(rays), limit, together, alone);
     return occluded;
 }
 

@@ -115,7 +115,7 @@ HD MaskOf<F> next_event_candidate(const SceneView<needs>& scene, const PathOptio
         if (!scene.contact_triangles.empty())
             one_by_one(active && !surface, [&](auto lane) {
                 const EndContacts& contacts = scene.lights[lane_of(light.emitter, lane)].contacts;
-                if (lies_on(scene, contacts, lane_of(z.point.primitive, lane)))
+                if (lies_on<float>(scene, contacts, lane_of(z.point.primitive, lane)))
                     put_lane(active, lane, false);
             });
     }
@@ -160,9 +160,7 @@ HD MaskOf<F> light_image_candidate(const SceneView<needs>& scene, const PathOpti
     const F cosine = glm::dot(facing, w);
     active = active && cosine > 0.0f && !is_black(alpha) && scene.camera.project(-w, pixel);
     if (none(active)) return active;
-    for (std::uint32_t i = 0; i < scene.eye_contacts.triangle_count; ++i)
-        active = active && point.primitive !=
-                               WordOf<F>(scene.contact_triangles[scene.eye_contacts.first_triangle + i]);
+    active = active && !lies_on<F>(scene, scene.eye_contacts, point.primitive);
     if (s == 1) active = active && sees_first(scene, point, w, active);
     candidate.ray.origin = leave_to_side(point, facing);
     candidate.ray.t_max = 1.0f;

@@ -27,12 +27,14 @@ HD Vec3Of<F> leave_end(const SceneView<needs>& scene, const Vec3& position, cons
 
 /// Whether the path end lies on that triangle: no light passes between the end and a point of the
 /// triangle.
-template <Needs needs>
-HD bool lies_on(const SceneView<needs>& scene, const EndContacts& contacts, std::uint32_t primitive)
+template <class F, Needs needs>
+HD MaskOf<F> lies_on(const SceneView<needs>& scene, const EndContacts& contacts,
+                     const WordOf<F>& primitive)
 {
+    MaskOf<F> found = false;
     for (std::uint32_t i = 0; i < contacts.triangle_count; ++i)
-        if (scene.contact_triangles[contacts.first_triangle + i] == primitive) return true;
-    return false;
+        found = found || primitive == WordOf<F>(scene.contact_triangles[contacts.first_triangle + i]);
+    return found;
 }
 
 /// The rank of a surface of that material; see scenes::meeting_rank. `from_front`: the ray comes from

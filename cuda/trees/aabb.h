@@ -2,7 +2,7 @@
 
 // Axis-aligned boxes.
 
-#include "cuda/parallel/vec.h"
+#include "cuda/parallel/number.h"
 
 namespace fast {
 
@@ -28,12 +28,6 @@ HD inline Aabb unite(const Aabb& a, const Aabb& b)
 HD inline bool is_empty(const Aabb& box)
 {
     return box.lower.x > box.upper.x || box.lower.y > box.upper.y || box.lower.z > box.upper.z;
-}
-
-/// Whether no coordinate is infinite or NaN: for those x - x is NaN.
-HD inline bool is_finite(const Vec3& v)
-{
-    return v.x - v.x == 0 && v.y - v.y == 0 && v.z - v.z == 0;
 }
 
 HD inline bool is_finite(const Aabb& box)

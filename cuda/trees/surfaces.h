@@ -45,9 +45,11 @@ HD void intersect_group(const Surfaces<has_spheres>& surfaces, std::uint32_t gro
 
 /// Whether the ray has a position and a direction (no NaN). The comparisons of a traversal accept NaN,
 /// which would lead other code to children that do not exist.
-HD inline bool is_a_ray(const Ray& ray)
+template <class F>
+HD MaskOf<F> is_a_ray(const RayOf<F>& ray)
 {
-    return is_finite(ray.origin) && is_finite(ray.direction) && ray.direction != Vec3(0.0f);
+    const Vec3Of<F>& d = ray.direction;
+    return is_finite(ray.origin) && is_finite(d) && (d.x != 0.0f || d.y != 0.0f || d.z != 0.0f);
 }
 
 /// The hit of smallest t; of several at the same t, that of the lowest primitive number. If nothing is

@@ -1,0 +1,29 @@
+#pragma once
+
+// The launch that bidirectional path tracing and light tracing share (host_bdpt.cpp, host_light.cpp).
+
+#include "cuda/launch/host_stages.h"
+#include "cuda/stages/trace_walks.h"
+
+namespace fast {
+
+namespace {
+
+template <Integrator integrator>
+void launch_walks(HostThreads& threads, Needs needs, const SceneInMemory& scene, const SampleJob& job)
+{
+    with_needs(needs, [&]<Needs known>() {
+        const StageJob<known> stages{scene.view<known>(), job.options, job.launch, job.film};
+        trace_blocks<WalkMemory>(threads, job.launch.count(), 512,
+                                 [&](WalkMemory& memory, std::uint32_t first, std::uint32_t count) {
+                                     const auto each = static_cast<std::size_t>(job.capacity);
+                                     memory.trace<integrator>(
+                                         StageExecutor(), stages, first, count,
+                                         job.kept.subspan(first * each, count * each), job.capacity);
+                                 });
+    });
+}
+
+} // namespace
+
+} // namespace fast
