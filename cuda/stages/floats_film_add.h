@@ -2,7 +2,7 @@
 
 // The same as film_add.h for many samples at once.
 
-#include "cuda/parallel/floats.h"
+#include "cuda/parallel/floats_records.h"
 #include "cuda/stages/film_add.h"
 
 namespace fast {

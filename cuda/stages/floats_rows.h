@@ -2,7 +2,7 @@
 
 // The stages (path_stages.h) for many indices at once.
 
-#include "cuda/parallel/floats.h"
+#include "cuda/parallel/floats_records.h"
 #include "cuda/stages/rows.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // The intersection of many rays with one triangle: the test of cuda/trees/intersect.h, with the same
 // bits.
 
-#include "cuda/parallel/floats.h"
+#include "cuda/parallel/floats_records.h"
 #include "cuda/trees/intersect.h"
 
 namespace fast {

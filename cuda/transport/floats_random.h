@@ -2,7 +2,7 @@
 
 // Random numbers of many samples at once: Philox4x32-10 as in random.h, word by word.
 
-#include "cuda/parallel/floats.h"
+#include "cuda/parallel/floats_records.h"
 #include "cuda/transport/random.h"
 
 namespace fast {

@@ -2,7 +2,7 @@
 // is compiled for the compiler's default instructions; tests/cuda/transport/stages_test.cpp compares the
 // bits of the others.
 
-#include "cuda/parallel/floats.h"
+#include "cuda/parallel/floats_records.h"
 
 #include "cuda/stages/floats_rows.h"
 #include "cuda/transport/floats_random.h"
