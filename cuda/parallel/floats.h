@@ -160,6 +160,11 @@ inline Floats magnitude_of(const Floats& x)
     return hn::Abs(x.v);
 }
 
+inline Floats multiply_add(const Floats& a, const Floats& b, const Floats& c)
+{
+    return hn::MulAdd(a.v, b.v, c.v);
+}
+
 inline Floats with_sign_of(const Floats& x, const Floats& y)
 {
     return hn::CopySign(x.v, y.v);

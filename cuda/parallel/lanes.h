@@ -6,6 +6,7 @@
 // computes one float at a time.
 
 #include "cuda/parallel/host_device.h"
+#include "cuda/parallel/number.h"
 
 #include <bit>
 #include <cstdint>
@@ -64,6 +65,12 @@ HD inline Lanes operator+(const Lanes& a, const Lanes& b)
 HD inline Lanes operator*(const Lanes& a, const Lanes& b)
 {
     return detail::each_lane([&](int i) { return a[i] * b[i]; });
+}
+
+/// a b + c, as multiply_add of number.h.
+HD inline Lanes multiply_add(const Lanes& a, const Lanes& b, const Lanes& c)
+{
+    return detail::each_lane([&](int i) { return multiply_add(a[i], b[i], c[i]); });
 }
 
 /// a where a > b, else b; so b where one of them is NaN.
@@ -155,6 +162,18 @@ inline Lanes operator*(const Lanes& a, const Lanes& b)
 inline Lanes operator-(const Lanes& a)
 {
     return detail::each_register([&](int i) { return -a.parts[i]; });
+}
+
+/// a b + c, as multiply_add of number.h.
+inline Lanes multiply_add(const Lanes& a, const Lanes& b, const Lanes& c)
+{
+#if defined(__FMA__)
+    Lanes result;
+    result.parts[0] = _mm256_fmadd_ps(a.parts[0], b.parts[0], c.parts[0]);
+    return result;
+#else
+    return a * b + c;
+#endif
 }
 
 /// a where a > b, else b; so b where one of them is NaN.

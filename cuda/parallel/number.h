@@ -86,6 +86,17 @@ HD inline float magnitude_of(float x)
     return std::abs(x);
 }
 
+/// a b + c, rounded once or twice, whichever the processor does faster. So the bits differ between
+/// instruction sets: only for what needs a bound on the error.
+HD inline float multiply_add(float a, float b, float c)
+{
+#if defined(__CUDA_ARCH__) || defined(__FMA__)
+    return std::fma(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+
 /// The magnitude of x with the sign of y.
 HD inline float with_sign_of(float x, float y)
 {

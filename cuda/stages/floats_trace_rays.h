@@ -43,7 +43,8 @@ HitOf<Floats> closest_hits(const SceneView<needs>& scene, const RayOf<Floats>& r
     const Surfaces<needs.spheres>& surfaces = scene.geometry;
     HitOf<Floats> best{rays.t_max, Words(no_primitive), Floats(0.0f), Floats(0.0f)};
     const ShearedRays sheared(rays);
-    SingleRays single(rays, surfaces.tree.bounds);
+    const SlabRayOf<Floats> slab_rays(rays, surfaces.tree.bounds);
+    SingleRays single(rays, slab_rays, sheared);
     const auto together = [&](std::uint32_t group, const Mask& here) {
         intersect_group_together(surfaces, group, rays, sheared, here, rays.t_max,
                                  [&](const Mask& hit, const Floats& t, std::uint32_t primitive) {
@@ -56,21 +57,25 @@ HitOf<Floats> closest_hits(const SceneView<needs>& scene, const RayOf<Floats>& r
                                  });
     };
     const auto alone = [&](std::uint32_t node, std::uint32_t here) {
+        StoredLanes<Floats> t(best.t);
+        StoredLanes<Words> primitive(best.primitive);
         for (; here != 0; here &= here - 1) {
             const int lane = std::countr_zero(here);
-            const SingleRays::One& one = single[lane];
-            Hit hit{lane_of(best.t, lane), lane_of(best.primitive, lane), 0, 0};
+            const SingleRays::One one = single[lane];
+            Hit hit{t[lane], primitive[lane], 0, 0};
             traverse_below(surfaces.tree, node, one.slabs, hit.t, [&](std::uint32_t group) {
                 intersect_group(surfaces, group, one.ray, one.sheared, [&](const Hit& found) {
                     if (comes_before(found, hit)) hit = found;
                 });
                 return hit.t;
             });
-            put_lane(best.t, lane, hit.t);
-            put_lane(best.primitive, lane, hit.primitive);
+            t.put(lane, hit.t);
+            primitive.put(lane, hit.primitive);
         }
+        best.t = t.all();
+        best.primitive = primitive.all();
     };
-    traverse_together(surfaces.tree, rays, active && is_a_ray(rays), best.t, together, alone);
+    traverse_together(surfaces.tree, slab_rays, active && is_a_ray(rays), best.t, together, alone);
 
     const Mask on_triangle = active && best.primitive != Words(no_primitive) &&
                              best.primitive < Words(surfaces.triangle_count);
@@ -91,7 +96,8 @@ Mask occluded_rays(const SceneView<needs>& scene, const RayOf<Floats>& rays, con
 {
     const Surfaces<needs.spheres>& surfaces = scene.geometry;
     const ShearedRays sheared(rays);
-    SingleRays single(rays, surfaces.tree.bounds);
+    const SlabRayOf<Floats> slab_rays(rays, surfaces.tree.bounds);
+    SingleRays single(rays, slab_rays, sheared);
     Mask occluded = false;
     Floats limit = rays.t_max;
     const auto stop = [&](const Mask& hit) {
@@ -107,7 +113,7 @@ Mask occluded_rays(const SceneView<needs>& scene, const RayOf<Floats>& rays, con
         std::uint32_t hit = 0;
         for (; here != 0; here &= here - 1) {
             const int lane = std::countr_zero(here);
-            const SingleRays::One& one = single[lane];
+            const SingleRays::One one = single[lane];
             traverse_below(surfaces.tree, node, one.slabs, one.ray.t_max, [&](std::uint32_t group) {
                 intersect_group(surfaces, group, one.ray, one.sheared,
                                 [&](const Hit& /*hit*/) { hit |= 1u << lane; });
@@ -116,7 +122,7 @@ Mask occluded_rays(const SceneView<needs>& scene, const RayOf<Floats>& rays, con
         }
         if (hit != 0) stop(mask_of_bits(hit));
     };
-    traverse_together(surfaces.tree, rays, active && is_a_ray(rays), limit, together, alone);
+    traverse_together(surfaces.tree, slab_rays, active && is_a_ray(rays), limit, together, alone);
     return occluded;
 }
 

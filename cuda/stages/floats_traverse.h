@@ -11,12 +11,11 @@
 
 #include <array>
 #include <bit>
-#include <optional>
 
 namespace fast {
 
 /// A node that no more rays enter is traversed by each of them alone.
-constexpr int few_rays = 3 * static_cast<int>(floats_at_once) / 8;
+constexpr int few_rays = 5 * static_cast<int>(floats_at_once) / 8;
 
 /// In a tree of no more nodes all rays stay together to the end.
 constexpr std::size_t small_tree = 16;
@@ -24,20 +23,9 @@ constexpr std::size_t small_tree = 16;
 /// The test of many rays against a box: Slabs of cuda/trees/slabs.h, ray by ray.
 class SlabsOfRays {
 public:
-    SlabsOfRays(const RayOf<Floats>& rays, const Aabb& root)
+    explicit SlabsOfRays(const SlabRayOf<Floats>& rays) : rays_(rays)
     {
-        const Vec3Of<Floats> below = magnitude_of(Vec3Of<Floats>(root.lower) - rays.origin);
-        const Vec3Of<Floats> above = magnitude_of(Vec3Of<Floats>(root.upper) - rays.origin);
-        Floats m = 0.0f;
-        for (int axis = 0; axis < 3; ++axis) m = greater(m, greater(below[axis], above[axis]));
-        for (int axis = 0; axis < 3; ++axis) {
-            const Floats origin = rays.origin[axis];
-            const Floats padding = unit_roundoff * (64.0f * m + 2.0f * magnitude_of(origin));
-            reciprocal_[axis] = 1.0f / rays.direction[axis];
-            descends_[axis] = reciprocal_[axis] < 0.0f;
-            entering_[axis] = select(descends_[axis], origin - padding, origin + padding);
-            leaving_[axis] = select(descends_[axis], origin + padding, origin - padding);
-        }
+        for (int axis = 0; axis < 3; ++axis) descends_[axis] = rays.reciprocal[axis] < 0.0f;
     }
     /// Where the rays are in box c of `node` at a t from 0 to `limit`; `near`: the smallest such t.
     [[nodiscard]] Mask entered(const WideNode& node, int c, const Floats& limit, Floats& near) const
@@ -47,11 +35,11 @@ public:
         for (int axis = 0; axis < 3; ++axis) {
             const Floats lower(node.planes[axis][c]);
             const Floats upper(node.planes[3 + axis][c]);
-            const Floats enter =
-                (select(descends_[axis], upper, lower) - entering_[axis]) * reciprocal_[axis];
-            const Floats leave =
-                (select(descends_[axis], lower, upper) - leaving_[axis]) * reciprocal_[axis];
-            // In the plane of a face 0 * infinity is NaN, which these comparisons ignore.
+            const Floats enter = multiply_add(select(descends_[axis], upper, lower),
+                                              rays_.reciprocal[axis], rays_.entering[axis]);
+            const Floats leave = multiply_add(select(descends_[axis], lower, upper),
+                                              rays_.reciprocal[axis], rays_.leaving[axis]);
+            // These comparisons ignore NaN.
             near = select(enter > near, enter, near);
             far = select(leave < far, leave, far);
         }
@@ -59,7 +47,7 @@ public:
     }
 
 private:
-    Floats reciprocal_[3], entering_[3], leaving_[3];
+    SlabRayOf<Floats> rays_;
     Mask descends_[3];
 };
 
@@ -67,7 +55,7 @@ private:
 /// where `here` are these rays; or alone(node, here) for a node that few rays enter. Both may lower
 /// `limit`, and set it below 0 for rays that need no more.
 template <class Test, class Alone>
-void traverse_together(const WideTreeView& tree, const RayOf<Floats>& rays, const Mask& active,
+void traverse_together(const WideTreeView& tree, const SlabRayOf<Floats>& rays, const Mask& active,
                        const Floats& limit, const Test& test, const Alone& alone)
 {
     if (tree.nodes.empty()) {
@@ -80,7 +68,7 @@ void traverse_together(const WideTreeView& tree, const RayOf<Floats>& rays, cons
     };
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const int few = tree.nodes.size() > small_tree ? few_rays : 0;
-    const SlabsOfRays slabs(rays, tree.bounds);
+    const SlabsOfRays slabs(rays);
     std::array<Waiting, TraversalStack::most> stack;
     std::size_t height = 0;
     stack[height++] = {select(active, Floats(0.0f), Floats(infinity)), 0};
@@ -120,30 +108,40 @@ void traverse_together(const WideTreeView& tree, const RayOf<Floats>& rays, cons
     }
 }
 
-/// What traverse_below needs of single rays, computed for those rays that need it.
+/// The same rays one by one, as traverse_below and intersect_group need them. They are stored when the
+/// first of them is needed.
 class SingleRays {
 public:
-    SingleRays(const RayOf<Floats>& rays, const Aabb& root) : rays_(rays), root_(root) {}
-
+    SingleRays(const RayOf<Floats>& rays, const SlabRayOf<Floats>& slab_rays, const ShearedRays& sheared)
+        : rays_(rays), slab_rays_(slab_rays), sheared_(sheared)
+    {}
     struct One {
         Ray ray;
         ShearedRay sheared;
         WideSlabs slabs;
     };
-    const One& operator[](int lane)
+    One operator[](int lane)
     {
-        std::optional<One>& one = ones_[static_cast<std::size_t>(lane)];
-        if (!one) {
-            const Ray ray = lane_of(rays_, lane);
-            one = One{ray, ShearedRay(ray), WideSlabs{Slabs(ray, root_)}};
-        }
-        return *one;
+        if (!stored_) store();
+        return {stored_rays_[lane], ShearedRay(shears_[lane]), WideSlabs(stored_slab_rays_[lane])};
     }
 
 private:
+    void store()
+    {
+        stored_rays_ = rays_;
+        stored_slab_rays_ = slab_rays_;
+        shears_ = sheared_.shears();
+        stored_ = true;
+    }
+
     const RayOf<Floats>& rays_;
-    const Aabb& root_;
-    std::array<std::optional<One>, floats_at_once> ones_;
+    const SlabRayOf<Floats>& slab_rays_;
+    const ShearedRays& sheared_;
+    bool stored_ = false;
+    StoredLanes<RayOf<Floats>> stored_rays_;
+    StoredLanes<SlabRayOf<Floats>> stored_slab_rays_;
+    StoredLanes<ShearOf<Floats>> shears_;
 };
 
 } // namespace fast

@@ -92,6 +92,12 @@ public:
         return {moved.x - shear_.x * moved.z, moved.y - shear_.y * moved.z, moved.z};
     }
     [[nodiscard]] const Floats& scale() const { return shear_.z; }
+    /// For ShearedRay, ray by ray.
+    [[nodiscard]] ShearOf<Floats> shears() const
+    {
+        return {select(along_x_, Words(0u), select(along_y_, Words(1u), Words(2u))), permuted(origin_),
+                shear_};
+    }
 
 private:
     /// The coordinates kx, ky, kz.

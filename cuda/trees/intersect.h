@@ -5,10 +5,19 @@
 //
 // Names follow the paper: kx, ky, kz, S, A, B, C, U, V, W, T, det.
 
+#include "cuda/parallel/number.h"
 #include "cuda/trees/centroid_bounds.h"
 #include "cuda/trees/ray.h"
 
 namespace fast {
+
+/// What ShearedRay is made of.
+template <class F>
+struct ShearOf {
+    WordOf<F> kz;
+    Vec3Of<F> origin;  // permuted: its coordinates kx, ky, kz
+    Vec3Of<F> factors; // S
+};
 
 /// A ray with the transformation that turns it into the z axis: kz is the coordinate along which the
 /// direction is longest, and S holds the factors that shear and scale the others [Woop et al. 2013,
@@ -25,6 +34,11 @@ public:
         const Vec3 d = permuted(ray.direction);
         shear_ = Vec3(d.x, d.y, 1.0f) / d.z;
     }
+    HD explicit ShearedRay(const ShearOf<float>& shear)
+        : kx_(shear.kz == 2 ? 0 : static_cast<int>(shear.kz) + 1),
+          ky_(shear.kz == 0 ? 2 : static_cast<int>(shear.kz) - 1), kz_(static_cast<int>(shear.kz)),
+          origin_(shear.origin), shear_(shear.factors)
+    {}
     /// x and y across the ray; z is the t at which the ray is level with the vertex. A vertex is moved
     /// to the same place for every triangle that it belongs to, so no gap opens between them.
     [[nodiscard]] HD Vec3 shear(const Vec3& vertex) const

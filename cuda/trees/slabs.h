@@ -7,15 +7,22 @@
 // coordinate of b - o over the corners b of the root's box. The shear moves a vertex by at most 7 u m
 // across the ray and 3 u m along it (two differences, two quotients, one product), and t is rounded
 // once. A reported hit of a sphere is within 22 u M of it (sphere.h), where M <= 2 m: the radius is at
-// most m, and the distance of the centre at most sqrt(3) m. Here the difference, the reciprocal and
-// the product are rounded once each. The sum of all these errors stays below 64 u m along every axis.
-// Every box is padded by 64 u m, so no comparison needs a tolerance. [Ize 2013] treats the error of
-// the boxes alone.
+// most m, and the distance of the centre at most sqrt(3) m.
 //
-// The padding is not added to the planes but subtracted from the origin, once for the planes at which
-// the ray enters and once for those at which it leaves. That sum is rounded by u |o + padding|, so
-// that 2 u |o| more is subtracted.
+// Every box is padded by p, so no comparison needs a tolerance. [Ize 2013] treats the error of the boxes
+// alone. The padding is not added to the planes but to the origin: o' = o + p for planes at which the
+// ray enters, o - p for those at which it leaves, as the ray ascends. With r = 1 / d and c = -o' r, the
+// plane x is met at t = x r + c: one fused operation, where the processor has it. Multiplied by d, the
+// rounding of o' changes t by u |o'|, of r by u |x - o'|, of c by u |o'|, of the product x r, where it
+// is not fused, by u |x| <= u (|o'| + |x - o'|), and of the sum by u |x - o'|: together 3 u |o'| + 3 u
+// m. With the errors above this stays below p = 64 u m + 4 u |o|.
+//
+// A coordinate of the direction that is 0 has no reciprocal. It counts as 2^-60 of the largest
+// coordinate, as do smaller ones: over the reach of the ray this moves it by less than 2^-58 m. If a
+// product may still overflow, the planes across that axis exclude no box, except the one that stands
+// for a child that is absent: its planes are at infinity, and x r + c is the same infinity, never NaN.
 
+#include "cuda/parallel/number.h"
 #include "cuda/trees/ray.h"
 #include "cuda/trees/rounding.h"
 #include "cuda/trees/wide_node.h"
@@ -25,24 +32,47 @@
 
 namespace fast {
 
-class Slabs {
-public:
-    HD Slabs(const Ray& ray, const Aabb& root)
-        : reciprocal_(1.0f / ray.direction.x, 1.0f / ray.direction.y, 1.0f / ray.direction.z)
+/// A ray as the tests of boxes need it.
+template <class F>
+struct SlabRayOf {
+    Vec3Of<F> reciprocal; // r; where it is negative, the ray enters a box by the upper plane
+    Vec3Of<F> entering;   // c of planes at which the ray enters
+    Vec3Of<F> leaving;
+
+    SlabRayOf() = default; // undefined
+    /// `root`: the box of the root.
+    HD SlabRayOf(const RayOf<F>& ray, const Aabb& root)
     {
-        const Vec3 reach =
-            glm::max(glm::abs(root.lower - ray.origin), glm::abs(root.upper - ray.origin));
-        const float m = glm::max(glm::max(reach.x, reach.y), reach.z);
+        const Vec3Of<F> below = magnitude_of(Vec3Of<F>(root.lower) - ray.origin);
+        const Vec3Of<F> above = magnitude_of(Vec3Of<F>(root.upper) - ray.origin);
+        F m = 0.0f;
+        F longest = 0.0f;
         for (int axis = 0; axis < 3; ++axis) {
-            const float origin = ray.origin[axis];
-            const float padding = unit_roundoff * (64 * m + 2 * glm::abs(origin));
-            // 1 / -0 is minus infinity: a ray with direction -0 counts as descending.
-            const bool descends = reciprocal_[axis] < 0;
-            first_[axis] = descends ? 1 : 0;
-            entering_[axis] = descends ? origin - padding : origin + padding;
-            leaving_[axis] = descends ? origin + padding : origin - padding;
+            m = greater(m, greater(below[axis], above[axis]));
+            longest = greater(longest, magnitude_of(ray.direction[axis]));
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            const F& o = ray.origin[axis];
+            const F p = unit_roundoff * (64.0f * m + 4.0f * magnitude_of(o));
+            const F d = greater(magnitude_of(ray.direction[axis]), 0x1p-60f * longest);
+            const F r = with_sign_of(1.0f / d, ray.direction[axis]);
+            const MaskOf<F> descends = r < 0.0f;
+            const MaskOf<F> in_range = (2.0f * magnitude_of(o) + m + p) / d <= largest;
+            reciprocal[axis] = select(in_range, r, F(std::numeric_limits<float>::min()));
+            entering[axis] = select(in_range, -select(descends, o - p, o + p) * r, F(-largest));
+            leaving[axis] = select(in_range, -select(descends, o + p, o - p) * r, F(largest));
         }
     }
+
+private:
+    static constexpr float largest = std::numeric_limits<float>::max() / 2;
+};
+using SlabRay = SlabRayOf<float>;
+
+class Slabs {
+public:
+    HD explicit Slabs(const SlabRay& ray) : ray_(ray) {}
+    HD Slabs(const Ray& ray, const Aabb& root) : Slabs(SlabRay(ray, root)) {}
     /// The smallest t >= 0 at which the ray is in the box; infinity if there is no such t <= limit.
     [[nodiscard]] HD float entry(const Aabb& box, float limit) const
     {
@@ -55,46 +85,42 @@ public:
     }
 
 private:
-    friend class WideSlabs;
-
     HD void clip(const Aabb& box, int axis, float& near, float& far) const
     {
-        const bool descends = first_[axis] != 0;
-        const float enter =
-            ((descends ? box.upper : box.lower)[axis] - entering_[axis]) * reciprocal_[axis];
-        const float leave =
-            ((descends ? box.lower : box.upper)[axis] - leaving_[axis]) * reciprocal_[axis];
-        // In the plane of a face 0 * infinity is NaN, which these comparisons ignore.
+        const bool descends = ray_.reciprocal[axis] < 0;
+        const float enter = multiply_add((descends ? box.upper : box.lower)[axis], ray_.reciprocal[axis],
+                                         ray_.entering[axis]);
+        const float leave = multiply_add((descends ? box.lower : box.upper)[axis], ray_.reciprocal[axis],
+                                         ray_.leaving[axis]);
+        // These comparisons ignore NaN.
         near = enter > near ? enter : near;
         far = leave < far ? leave : far;
     }
 
-    Vec3 reciprocal_;
-    int first_[3];  // 1 where the ray descends: it enters a box by the upper plane
-    Vec3 entering_; // the origin, less the padding, for planes at which the ray enters
-    Vec3 leaving_;
+    SlabRay ray_;
 };
 
 /// The same for all boxes of a wide node at once.
 class WideSlabs {
 public:
-    HD explicit WideSlabs(const Slabs& slabs)
+    HD explicit WideSlabs(const SlabRay& ray)
     {
         for (int axis = 0; axis < 3; ++axis) {
             const auto lower = static_cast<std::size_t>(axis);
             const std::size_t upper = 3 + lower;
-            first_[axis] = slabs.first_[axis] != 0 ? upper : lower;
-            last_[axis] = slabs.first_[axis] != 0 ? lower : upper;
-            entering_[axis] = all_lanes(slabs.entering_[axis]);
-            leaving_[axis] = all_lanes(slabs.leaving_[axis]);
-            reciprocal_[axis] = all_lanes(slabs.reciprocal_[axis]);
+            const bool descends = ray.reciprocal[axis] < 0;
+            first_[axis] = descends ? upper : lower;
+            last_[axis] = descends ? lower : upper;
+            entering_[axis] = all_lanes(ray.entering[axis]);
+            leaving_[axis] = all_lanes(ray.leaving[axis]);
+            reciprocal_[axis] = all_lanes(ray.reciprocal[axis]);
         }
     }
     /// The boxes that the ray is in at a t from 0 to `limit`; `near`: the smallest such t of each.
     [[nodiscard]] HD LaneBits entered(const WideNode& node, float limit, Lanes& near) const
     {
-        // In the plane of a face 0 * infinity is NaN. Then the second argument is taken, and the worst
-        // effect is a visit to a box that could have been skipped.
+        // If the first argument is NaN, the second is taken: then the worst effect is a visit to a box
+        // that could have been skipped.
         near = larger(larger(enter(node, 0), enter(node, 1)), larger(enter(node, 2), all_lanes(0)));
         const Lanes far =
             smaller(smaller(leave(node, 0), leave(node, 1)), smaller(leave(node, 2), all_lanes(limit)));
@@ -104,11 +130,11 @@ public:
 private:
     [[nodiscard]] HD Lanes enter(const WideNode& node, int axis) const
     {
-        return (node.planes[first_[axis]] - entering_[axis]) * reciprocal_[axis];
+        return multiply_add(node.planes[first_[axis]], reciprocal_[axis], entering_[axis]);
     }
     [[nodiscard]] HD Lanes leave(const WideNode& node, int axis) const
     {
-        return (node.planes[last_[axis]] - leaving_[axis]) * reciprocal_[axis];
+        return multiply_add(node.planes[last_[axis]], reciprocal_[axis], leaving_[axis]);
     }
 
     std::size_t first_[3]; // the plane by which the ray enters a box

@@ -12,11 +12,12 @@ namespace fast {
 /// Nodes and leaves that a ray has yet to visit, each with the t >= 0 at which the ray enters its box.
 class TraversalStack {
 public:
-    HD void push(std::uint32_t child, float entry)
+    /// The bits of floats >= 0 sort like the floats, so an element is compared as one number.
+    HD static std::uint64_t element(std::uint32_t child, float entry)
     {
-        // The bits of floats >= 0 sort like the floats, so an element is compared as one number.
-        elements_[height_++] = std::uint64_t{std::bit_cast<std::uint32_t>(entry)} << 32 | child;
+        return std::uint64_t{std::bit_cast<std::uint32_t>(entry)} << 32 | child;
     }
+    HD void push(std::uint64_t element) { elements_[height_++] = element; }
     /// Sorts the last `count` elements, so that the one of the smallest entry is on top.
     HD void sort_last(int count)
     {

@@ -46,19 +46,21 @@ HD void traverse_with_children(const WideTreeView& tree, std::uint32_t next, con
         const int first = take_lane(entered);
         next = node.children[first];
         if (entered == 0) continue;
+        const std::uint64_t one = TraversalStack::element(next, near[first]);
         const int second = take_lane(entered);
+        const std::uint64_t other = TraversalStack::element(node.children[second], near[second]);
         if (entered == 0) {
-            const bool in_order = near[first] <= near[second];
-            stack.push(node.children[in_order ? second : first], near[in_order ? second : first]);
-            next = node.children[in_order ? first : second];
+            const std::uint64_t nearer = one < other ? one : other;
+            stack.push(one ^ other ^ nearer);
+            next = static_cast<std::uint32_t>(nearer);
             continue;
         }
         int pushed = 2;
-        stack.push(next, near[first]);
-        stack.push(node.children[second], near[second]);
+        stack.push(one);
+        stack.push(other);
         for (; entered != 0; ++pushed) {
             const int lane = take_lane(entered);
-            stack.push(node.children[lane], near[lane]);
+            stack.push(TraversalStack::element(node.children[lane], near[lane]));
         }
         stack.sort_last(pushed);
         stack.pop(limit, next);
@@ -130,7 +132,7 @@ HD void traverse(const WideTreeView& tree, const Ray& ray, const Test& test, con
         if (!tree.groups.empty()) test(0);
         return;
     }
-    traverse_below(tree, 0, WideSlabs{Slabs(ray, tree.bounds)}, ray.t_max, test, count);
+    traverse_below(tree, 0, WideSlabs(SlabRay(ray, tree.bounds)), ray.t_max, test, count);
 }
 
 /// Kernel over rays.

@@ -54,7 +54,8 @@ HD void traverse(const TreeView& tree, const fast::Ray& ray, const Test& test, c
         const float entry[2] = {slabs.entry(node.bounds[0], limit), slabs.entry(node.bounds[1], limit)};
         const int nearer = entry[1] < entry[0] ? 1 : 0;
         for (const int side : {1 - nearer, nearer})
-            if (entry[side] < never) stack.push(node.children[side], entry[side]);
+            if (entry[side] < never)
+                stack.push(fast::TraversalStack::element(node.children[side], entry[side]));
     } while (stack.pop(limit, next));
 }
 

@@ -156,7 +156,7 @@ fast::Hit intersect_with_masks(const fast::Surfaces<false>& surfaces, const fast
     const fast::ShearedRay sheared(ray);
     const std::uint32_t root = surfaces.tree.nodes.empty() ? fast::leaf_bit : 0;
     if (surfaces.tree.groups.empty()) return best;
-    traverse_with_masks(surfaces.tree, root, fast::WideSlabs{fast::Slabs(ray, surfaces.tree.bounds)},
+    traverse_with_masks(surfaces.tree, root, fast::WideSlabs(fast::SlabRay(ray, surfaces.tree.bounds)),
                         ray.t_max, [&](std::uint32_t group) {
                             intersect_group(surfaces, group, ray, sheared, [&](const fast::Hit& hit) {
                                 if (comes_before(hit, best)) best = hit;
