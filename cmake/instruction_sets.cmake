@@ -11,6 +11,16 @@ if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND NOT PLUMBLINE_SANITIZE)
     unset(CMAKE_REQUIRED_FLAGS)
 endif()
 
+# How the kernels are compiled, whatever the instruction set.
+# -fno-math-errno, -fno-trapping-math: square roots and selections are single instructions. -O3 and the limits: a stage
+# and all that it calls become one function, in which registers are not stored and loaded around calls
+# (docs/stages.md, section 7). -fno-tree-vectorize: the code names the vectors that it wants. No bit depends on these.
+set(PLUMBLINE_KERNEL_FLAGS -fno-math-errno -fno-trapping-math -O3 -fno-tree-vectorize)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    list(APPEND PLUMBLINE_KERNEL_FLAGS --param=max-inline-insns-single=1000 --param=inline-unit-growth=200
+        --param=large-function-growth=1000 --param=large-function-insns=20000)
+endif()
+
 # plumbline_kernels(TARGET SET FLAGS SOURCES...): compiles the sources with FLAGS and PLUMBLINE_KERNELS=SET, and adds
 # them to TARGET as one object file of which only the functions plumbline_kernels_SET_... are visible to others.
 #
