@@ -16,7 +16,16 @@ struct SampleJob {
     FilmTarget film;
     std::span<LightVertex> kept;
     int capacity;
+    std::span<std::uint32_t> queues; // queue_words
 };
+
+/// The words of memory that launch_samples needs for the queues of so many samples. The kernel for whole
+/// samples has none.
+template <Executor E>
+std::size_t queue_words(const E& /*executor*/, Integrator /*integrator*/, std::uint32_t /*samples*/)
+{
+    return 0;
+}
 
 /// Calls function.operator()<Needs>() with the smallest compiled needs that include these.
 template <class Function>

@@ -1,0 +1,136 @@
+// Launches in stages by the code that a GPU uses (launch_stages.h): the same bits as whole samples, in
+// every order of the queues, in memory that the host cannot access.
+
+#include "cuda/launch/launch_stages.h"
+#include "cuda/parallel/threaded_executor.h"
+#include "cuda/stages/trace_rays.h"
+#include "tests/cuda/parallel/any_executor.h"
+#include "tests/cuda/parallel/far_memory.h"
+#include "tests/cuda/parallel/interleaved_executor.h"
+#include "tests/ref/transport/scene_files.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+using fast::Integrator;
+using parallel_test::AnyExecutor;
+using transport_test::our_scene;
+
+constexpr int width = 7;
+constexpr int height = 5;
+constexpr std::uint32_t pixels = width * height;
+/// The second finds what the first one has left in memory.
+constexpr fast::Launch launches[] = {{0, pixels, 0, 2}, {0, pixels, 2, 2}};
+constexpr std::uint32_t samples = 2 * pixels; // of each
+
+/// All that the launches have written.
+struct Film {
+    std::vector<fast::Rgb> own;
+    std::vector<std::uint64_t> splats; // the words of exact sums
+    std::uint64_t dropped;
+    friend bool operator==(const Film&, const Film&) = default;
+};
+
+/// The film of the launches of `scene` on `executor`. `serial` is on the same memory, and builds the
+/// tree.
+template <Integrator integrator, class E>
+Film film_of(const scenes::Scene& scene, fast::Memory& memory, AnyExecutor& serial, E& executor)
+{
+    constexpr int longest = 7; // beyond the bounces without roulette
+    const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
+    const fast::SceneInMemory in_memory(memory, serial, arrays,
+                                        fast::camera_of(scene, arrays.place, width, height));
+    const int capacity = integrator == Integrator::bdpt ? fast::most_light_vertices(arrays, longest) : 0;
+    fast::Buffer<fast::Rgb> own(memory, samples);
+    fast::Buffer<fast::ExactSum> splats(memory, std::size_t{3} * pixels);
+    fast::Buffer<fast::DroppedCount> dropped(memory, 1);
+    fast::Buffer<fast::LightVertex> kept(memory, static_cast<std::size_t>(capacity) * samples);
+    fast::Buffer<std::uint32_t> queues(memory, fast::queue_words(executor, integrator, samples));
+    serial(static_cast<std::uint32_t>(splats.size()), fast::Clear<fast::ExactSum>{splats.all()});
+    serial(1, fast::Clear<fast::DroppedCount>{dropped.all()});
+    const fast::FilmTarget film{own.all(), {{}, splats.all()}, {}, dropped.all(), false, pixels};
+    for (const fast::Launch& launch : launches)
+        fast::launch_samples<integrator>(executor, arrays.needs, in_memory,
+                                         fast::SampleJob{{7, longest, images::Heuristic::balance},
+                                                         launch,
+                                                         film,
+                                                         kept.all(),
+                                                         capacity,
+                                                         queues.all()});
+    Film result{own.read(own.size()), {}, dropped.read(1)[0].count};
+    for (const fast::ExactSum& sum : splats.read(splats.size())) {
+        result.splats.insert(result.splats.end(), std::begin(sum.words), std::end(sum.words));
+        result.splats.push_back(sum.lost);
+    }
+    return result;
+}
+
+/// By the kernel for whole samples.
+template <Integrator integrator>
+Film whole_film(const scenes::Scene& scene)
+{
+    fast::HostMemory memory;
+    fast::SerialExecutor on_host;
+    AnyExecutor serial(on_host);
+    return film_of<integrator>(scene, memory, serial, serial);
+}
+
+/// In stages whose kernels run on `executor`, in memory that only they can access.
+template <Integrator integrator, class E>
+Film staged_film(const scenes::Scene& scene, E& executor, const AnyExecutor::Watch& watch = {})
+{
+    parallel_test::FarMemory memory(std::size_t{1} << 28);
+    fast::SerialExecutor on_host;
+    parallel_test::FarExecutor serial_in_far(memory, on_host);
+    parallel_test::FarExecutor in_far(memory, executor);
+    AnyExecutor serial(serial_in_far);
+    AnyExecutor any(in_far);
+    any.watch = watch;
+    fast::StagedExecutor staged(memory, any);
+    return film_of<integrator>(scene, memory, serial, staged);
+}
+
+template <Integrator integrator>
+void expect_whole_samples(const scenes::Scene& scene)
+{
+    const Film expected = whole_film<integrator>(scene);
+    fast::SerialExecutor serial;
+    EXPECT_EQ(staged_film<integrator>(scene, serial), expected) << "serial";
+    for (const std::uint32_t threads : {2u, 4u}) {
+        fast::ThreadedExecutor threaded(threads, 1);
+        EXPECT_EQ(staged_film<integrator>(scene, threaded), expected) << threads << " threads";
+    }
+    for (std::uint64_t seed = 0; seed < 2; ++seed) {
+        std::mt19937_64 schedule(seed);
+        parallel_test::InterleavedExecutor interleaved(
+            6, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(schedule() % ready); });
+        EXPECT_EQ(staged_film<integrator>(scene, interleaved), expected) << "schedule " << seed;
+    }
+}
+
+class StageLaunches : public testing::TestWithParam<std::string> {};
+
+TEST_P(StageLaunches, HaveTheBitsOfWholeSamples)
+{
+    const scenes::Scene scene = our_scene(GetParam());
+    expect_whole_samples<Integrator::path>(scene);
+    expect_whole_samples<Integrator::bdpt>(scene);
+    expect_whole_samples<Integrator::light>(scene);
+}
+
+std::vector<std::string> names_of_all_scenes()
+{
+    std::vector<std::string> names;
+    for (const auto& file : transport_test::our_scene_files()) names.push_back(file.stem());
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, StageLaunches, testing::ValuesIn(names_of_all_scenes()),
+                         [](const auto& tested) { return tested.param; });
+
+} // namespace
