@@ -138,7 +138,7 @@ private:
                   Needs at_least)
         : executor_(executor), options_(checked(options)), width_(width), height_(height),
           pixels_(pixel_count(width, height)), needs_(compiled_for(arrays.needs | at_least)),
-          scene_(memory, executor, arrays, camera_of(scene, arrays.place, width, height)),
+          scene_(memory, builder_of(executor), arrays, camera_of(scene, arrays.place, width, height)),
           capacity_(options_.integrator == Integrator::bdpt
                         ? most_light_vertices(arrays, options_.max_edges)
                         : 0),

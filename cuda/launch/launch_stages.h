@@ -41,10 +41,21 @@ public:
         memory_.read(to.data(), from.data(), from.size_bytes());
     }
 
+    [[nodiscard]] E& executor() const { return executor_; }
+
 private:
     Memory& memory_;
     E& executor_;
 };
+
+template <class E>
+constexpr bool in_stages<StagedExecutor<E>> = true;
+
+template <Executor E>
+E& builder_of(StagedExecutor<E>& executor)
+{
+    return executor.executor();
+}
 
 /// The words of memory for the queues of so many samples.
 template <Executor E>
