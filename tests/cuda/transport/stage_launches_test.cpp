@@ -1,12 +1,14 @@
 // Launches in stages by the code that a GPU uses (launch_stages.h): the same bits as whole samples, in
-// every order of the queues, in memory that the host cannot access.
+// every order of the queues, in memory that the host cannot access; and with a GPU, there.
 
+#include "cuda/launch/batch_renderer.h"
 #include "cuda/launch/launch_stages.h"
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/stages/trace_rays.h"
 #include "tests/cuda/parallel/any_executor.h"
 #include "tests/cuda/parallel/far_memory.h"
 #include "tests/cuda/parallel/interleaved_executor.h"
+#include "tests/cuda/parallel/on_device.h"
 #include "tests/ref/transport/scene_files.h"
 
 #include <gtest/gtest.h>
@@ -132,5 +134,54 @@ std::vector<std::string> names_of_all_scenes()
 
 INSTANTIATE_TEST_SUITE_P(Scenes, StageLaunches, testing::ValuesIn(names_of_all_scenes()),
                          [](const auto& tested) { return tested.param; });
+
+images::RenderOptions options_for(Integrator integrator)
+{
+    images::RenderOptions options;
+    options.integrator = integrator;
+    options.max_edges = 9;
+    options.seed = 3;
+    options.deterministic = true;
+    return options;
+}
+
+// A launch takes as many samples as the limit on memory allows, queues included: a million would need
+// more than there is.
+TEST(StageLaunches, KeepToTheLimitOnMemory)
+{
+    const scenes::Scene scene = our_scene("cornell_glass");
+    for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
+        const images::RenderOptions options = options_for(integrator);
+        parallel_test::FarMemory memory(std::size_t{1} << 24);
+        fast::SerialExecutor on_host;
+        parallel_test::FarExecutor in_far(memory, on_host);
+        AnyExecutor any(in_far);
+        fast::StagedExecutor staged(memory, any);
+        fast::BatchRenderer renderer(memory, staged, {1u << 20, 1u << 20, std::size_t{1} << 22}, scene,
+                                     40, 30, options, {});
+        EXPECT_EQ(renderer.render_batch(0, {})->mean,
+                  fast::host_renderer(scene, 40, 30, options, 1)->render_batch(0, {})->mean);
+    }
+}
+
+class StagesOnDevice : public parallel_test::OnDevice {};
+
+TEST_F(StagesOnDevice, HaveTheBitsOfWholeSamples)
+{
+    for (const std::string& name : names_of_all_scenes()) {
+        const scenes::Scene scene = our_scene(name);
+        for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
+            const auto batch_by = [&](fast::DeviceKernels kernels) {
+                return *fast::device_renderer(scene, 120, 80, options_for(integrator), kernels)
+                            ->render_batch(1, {});
+            };
+            const images::Batch whole = batch_by(fast::DeviceKernels::samples);
+            const images::Batch staged = batch_by(fast::DeviceKernels::stages);
+            EXPECT_EQ(staged.mean, whole.mean)
+                << name << ", integrator " << static_cast<int>(integrator);
+            EXPECT_EQ(staged.dropped.count, whole.dropped.count) << name;
+        }
+    }
+}
 
 } // namespace
