@@ -30,6 +30,7 @@ public:
     }
 
     // As run_stages.h requires.
+    static constexpr bool in_parts = true;
     template <class T>
     void clear(std::span<T> elements)
     {

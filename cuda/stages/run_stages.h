@@ -7,8 +7,9 @@
 //   run(count, stage)    runs a stage for the indices 0 to count - 1, count > 0
 //   run.clear(span)      gives all elements their default value, which is 0 for numbers
 //   run.read(from, to)   waits for the work before, and copies the words `from` to the host
+//   Run::in_parts        whether stages that shade are run in parts (stage_job.h: Part)
 //
-// All three take effect in the order of the calls. HostStages is for the memory of the host;
+// The first three take effect in the order of the calls. HostStages is for the memory of the host;
 // cuda/launch/launch_stages.h has the form for any memory.
 
 #include "cuda/parallel/executor.h"
@@ -24,6 +25,8 @@ namespace fast {
 template <class E>
 class HostStages {
 public:
+    static constexpr bool in_parts = false;
+
     explicit HostStages(E& executor) : executor_(executor) {}
 
     template <class Stage>

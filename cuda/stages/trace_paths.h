@@ -37,12 +37,13 @@ public:
         for (int n = 1; count > 0; ++n) {
             run(count, Extend<needs, PathStateOf>{job, paths_[0], hits_});
             counts_.clear(run);
-            run(count, Shade<needs>{job,
-                                    n,
-                                    paths_[0],
-                                    hits_,
-                                    {paths_[1], counts_.of(going_on)},
-                                    {waiting_, counts_.of(candidates)}});
+            if constexpr (Run::in_parts && needs.coincident) {
+                if (n < job.options.max_edges && !job.scene.cumulative.empty())
+                    shade<Part::joins>(run, job, n, count);
+                shade<Part::bounce>(run, job, n, count);
+            } else {
+                shade<Part::all>(run, job, n, count);
+            }
             if (n == job.options.max_edges) return; // no bounce and no candidates
             const auto filled = counts_.read(run);
             if (filled[candidates] > 0)
@@ -53,6 +54,17 @@ public:
     }
 
 private:
+    template <Part part, Needs needs, class Run>
+    void shade(Run& run, const StageJob<needs>& job, int n, std::uint32_t count)
+    {
+        run(count, Shade<needs, part>{job,
+                                      n,
+                                      paths_[0],
+                                      hits_,
+                                      {paths_[1], counts_.of(going_on)},
+                                      {waiting_, counts_.of(candidates)}});
+    }
+
     enum Queues : std::size_t { going_on, candidates, queues };
 
     QueueCounts<queues> counts_;

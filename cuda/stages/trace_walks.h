@@ -64,28 +64,51 @@ private:
                          1;
         if constexpr (with_eye_walks) run.clear(vertices_of_samples_.first(block.samples));
         counts_.clear(run);
-        run(block.samples,
-            GenerateLight<needs, integrator>{
-                job, block, {walks_[0], counts_.of(going_on)}, {splats_, counts_.of(candidates)}});
+        if constexpr (Run::in_parts && needs.coincident) {
+            generate_light<Part::joins>(run, job, block);
+            generate_light<Part::bounce>(run, job, block);
+        } else {
+            generate_light<Part::all>(run, job, block);
+        }
         auto filled = counts_.read(run);
         test_splats(run, job, 1, filled[candidates]);
         int n = 1;
         for (; n <= last && filled[going_on] > 0; ++n) {
             run(filled[going_on], Extend<needs, WalkStateOf>{job, walks_[0], hits_});
             counts_.clear(run);
-            run(filled[going_on], ShadeLight<needs, integrator>{job,
-                                                                n,
-                                                                n == last,
-                                                                block,
-                                                                walks_[0],
-                                                                hits_,
-                                                                {walks_[1], counts_.of(going_on)},
-                                                                {splats_, counts_.of(candidates)}});
+            if constexpr (Run::in_parts) {
+                shade_light<Part::joins>(run, job, block, n, last, filled[going_on]);
+                if (n < last) shade_light<Part::bounce>(run, job, block, n, last, filled[going_on]);
+            } else {
+                shade_light<Part::all>(run, job, block, n, last, filled[going_on]);
+            }
             filled = counts_.read(run);
             test_splats(run, job, n + 1, filled[candidates]);
             std::swap(walks_[0], walks_[1]);
         }
         return n - 1;
+    }
+
+    template <Part part, Needs needs, class Run>
+    void generate_light(Run& run, const StageJob<needs>& job, const BlockVertices& block)
+    {
+        run(block.samples,
+            GenerateLight<needs, integrator, part>{
+                job, block, {walks_[0], counts_.of(going_on)}, {splats_, counts_.of(candidates)}});
+    }
+
+    template <Part part, Needs needs, class Run>
+    void shade_light(Run& run, const StageJob<needs>& job, const BlockVertices& block, int n, int last,
+                     std::uint32_t count)
+    {
+        run(count, ShadeLight<needs, integrator, part>{job,
+                                                       n,
+                                                       n == last,
+                                                       block,
+                                                       walks_[0],
+                                                       hits_,
+                                                       {walks_[1], counts_.of(going_on)},
+                                                       {splats_, counts_.of(candidates)}});
     }
 
     template <Needs needs, class Run>
@@ -102,13 +125,13 @@ private:
         for (int n = 1; count > 0; ++n) {
             run(count, Extend<needs, WalkStateOf>{job, walks_[0], hits_});
             counts_.clear(run);
-            run(count, ShadeEye<needs>{job,
-                                       n,
-                                       walks_[0],
-                                       hits_,
-                                       {walks_[1], counts_.of(going_on)},
-                                       {waiting_, counts_.of(candidates)},
-                                       {eye_vertices_, counts_.of(eye_vertices)}});
+            if constexpr (Run::in_parts) {
+                if (n < job.options.max_edges && !job.scene.cumulative.empty())
+                    shade_eye<Part::joins>(run, job, n, count);
+                shade_eye<Part::bounce>(run, job, n, count);
+            } else {
+                shade_eye<Part::all>(run, job, n, count);
+            }
             if (n == job.options.max_edges) return; // no bounce and nothing to join
             const auto filled = counts_.read(run);
             test_shadows(run, job, 1, n + 1, filled[candidates]);
@@ -118,6 +141,18 @@ private:
             std::swap(walks_[0], walks_[1]);
             count = filled[going_on];
         }
+    }
+
+    template <Part part, Needs needs, class Run>
+    void shade_eye(Run& run, const StageJob<needs>& job, int n, std::uint32_t count)
+    {
+        run(count, ShadeEye<needs, part>{job,
+                                         n,
+                                         walks_[0],
+                                         hits_,
+                                         {walks_[1], counts_.of(going_on)},
+                                         {waiting_, counts_.of(candidates)},
+                                         {eye_vertices_, counts_.of(eye_vertices)}});
     }
 
     template <Needs needs, class Run>
