@@ -13,8 +13,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cxxabi.h>
+
+#include <cstdlib>
+#include <map>
+#include <memory>
 #include <random>
+#include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace {
@@ -28,6 +35,7 @@ constexpr int height = 5;
 constexpr std::uint32_t pixels = width * height;
 /// The second finds what the first one has left in memory.
 constexpr fast::Launch launches[] = {{0, pixels, 0, 2}, {0, pixels, 2, 2}};
+constexpr int longest = 7;                    // path, in edges: beyond the bounces without roulette
 constexpr std::uint32_t samples = 2 * pixels; // of each
 
 /// All that the launches have written.
@@ -43,7 +51,6 @@ struct Film {
 template <Integrator integrator, class E>
 Film film_of(const scenes::Scene& scene, fast::Memory& memory, AnyExecutor& serial, E& executor)
 {
-    constexpr int longest = 7; // beyond the bounces without roulette
     const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
     const fast::SceneInMemory in_memory(memory, serial, arrays,
                                         fast::camera_of(scene, arrays.place, width, height));
@@ -97,6 +104,17 @@ Film staged_film(const scenes::Scene& scene, E& executor, const AnyExecutor::Wat
     return film_of<integrator>(scene, memory, serial, staged);
 }
 
+/// Of the class template that a kernel is: without arguments and namespace.
+std::string kernel_name(const std::type_info& kernel)
+{
+    int status = 0;
+    const std::unique_ptr<char, void (*)(void*)> name(
+        abi::__cxa_demangle(kernel.name(), nullptr, nullptr, &status), std::free);
+    const std::string whole = name.get();
+    const std::size_t begin = std::string("fast::").size();
+    return whole.substr(begin, whole.find('<') - begin);
+}
+
 template <Integrator integrator>
 void expect_whole_samples(const scenes::Scene& scene)
 {
@@ -134,6 +152,80 @@ std::vector<std::string> names_of_all_scenes()
 
 INSTANTIATE_TEST_SUITE_P(Scenes, StageLaunches, testing::ValuesIn(names_of_all_scenes()),
                          [](const auto& tested) { return tested.param; });
+
+/// The launches of one film, by the name of their stage. `idle`: those without an index.
+struct Launches {
+    std::map<std::string, int> of_stages;
+    int idle = 0;
+};
+
+template <Integrator integrator>
+Launches launches_of(const scenes::Scene& scene)
+{
+    Launches found;
+    fast::SerialExecutor serial;
+    staged_film<integrator>(scene, serial, [&](const std::type_info& kernel, std::uint32_t count) {
+        const std::string name = kernel_name(kernel);
+        if (name == "Clear") return;
+        ++found.of_stages[name];
+        if (count == 0) ++found.idle;
+    });
+    return found;
+}
+
+template <Integrator integrator>
+std::set<std::string> stages_of(const scenes::Scene& scene)
+{
+    std::set<std::string> names;
+    for (const auto& [name, count] : launches_of<integrator>(scene).of_stages) names.insert(name);
+    return names;
+}
+
+using Names = std::set<std::string>;
+
+// The queue of a stage that a scene does not require stays empty. Such a stage is never launched.
+TEST_P(StageLaunches, HaveIndices)
+{
+    const scenes::Scene scene = our_scene(GetParam());
+    EXPECT_EQ(launches_of<Integrator::path>(scene).idle, 0);
+    EXPECT_EQ(launches_of<Integrator::bdpt>(scene).idle, 0);
+    EXPECT_EQ(launches_of<Integrator::light>(scene).idle, 0);
+}
+
+TEST(StageLaunches, AreThoseThatASceneRequires)
+{
+    const scenes::Scene lit = our_scene("cornell_diffuse");
+    EXPECT_EQ(stages_of<Integrator::path>(lit), (Names{"Generate", "Extend", "Shade", "TestShadow"}));
+    EXPECT_EQ(stages_of<Integrator::light>(lit),
+              (Names{"GenerateLight", "Extend", "ShadeLight", "TestSplat"}));
+    EXPECT_EQ(stages_of<Integrator::bdpt>(lit),
+              (Names{"GenerateLight", "ShadeLight", "TestSplat", "GenerateEye", "Extend", "ShadeEye",
+                     "TestShadow", "Connect"}));
+
+    scenes::Scene dark = our_scene("point_over_plane");
+    dark.point_lights.clear();
+    EXPECT_EQ(stages_of<Integrator::path>(dark), (Names{"Generate", "Extend", "Shade"}));
+    EXPECT_EQ(stages_of<Integrator::light>(dark), Names{});
+    EXPECT_EQ(stages_of<Integrator::bdpt>(dark), (Names{"GenerateEye", "Extend", "ShadeEye"}));
+
+    // Mirrors and glass cannot be joined.
+    scenes::Scene mirrors = lit;
+    for (scenes::Material& material : mirrors.materials)
+        if (std::holds_alternative<scenes::Lambertian>(material))
+            material = scenes::Mirror{scenes::Rgb(0.9)};
+    EXPECT_EQ(stages_of<Integrator::path>(mirrors), (Names{"Generate", "Extend", "Shade"}));
+    EXPECT_EQ(stages_of<Integrator::bdpt>(mirrors),
+              (Names{"GenerateLight", "ShadeLight", "TestSplat", "GenerateEye", "Extend", "ShadeEye"}));
+}
+
+// Of a walk of one vertex no part is launched that prepares a second one.
+TEST(StageLaunches, EndWithTheLongestPath)
+{
+    const auto launches = launches_of<Integrator::path>(our_scene("cornell_diffuse"));
+    EXPECT_EQ(launches.of_stages.at("Extend"), launches.of_stages.at("Shade"));
+    EXPECT_EQ(launches.of_stages.at("Extend"), 2 * longest); // closed: some path reaches the limit
+    EXPECT_EQ(launches.of_stages.at("TestShadow"), 2 * (longest - 1)); // the last vertex is not joined
+}
 
 images::RenderOptions options_for(Integrator integrator)
 {
