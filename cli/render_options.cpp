@@ -76,6 +76,11 @@ void add_device_options(CLI::App& command, RenderCommand& options)
                     "For host: baseline, avx2, avx512 or best; changes no bit")
         ->check(one_of({"baseline", "avx2", "avx512", "best"}))
         ->capture_default_str();
+    command
+        .add_option("--kernels", options.kernels,
+                    "For cuda: whole samples, or stages of many; changes no bit")
+        ->check(one_of({"samples", "stages"}))
+        ->capture_default_str();
     command.add_flag("--deterministic", options.deterministic,
                      "The fast path gives the same bits every time; ref always does");
 }

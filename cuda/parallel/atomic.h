@@ -39,7 +39,7 @@ HD inline std::uint32_t arrive(std::uint32_t& counter)
 }
 
 /// Adds one to `counter` and returns its previous value, without ordering any other access: every thread
-/// gets a number of its own. (On a GPU the compiler makes one addition of those of a warp.)
+/// gets a number of its own.
 HD inline std::uint32_t next_number(std::uint32_t& counter)
 {
 #if defined(__CUDA_ARCH__)

@@ -221,10 +221,10 @@ TEST(StageLaunches, AreThoseThatASceneRequires)
 // Of a walk of one vertex no part is launched that prepares a second one.
 TEST(StageLaunches, EndWithTheLongestPath)
 {
-    const auto launches = launches_of<Integrator::path>(our_scene("cornell_diffuse"));
-    EXPECT_EQ(launches.of_stages.at("Extend"), launches.of_stages.at("Shade"));
-    EXPECT_EQ(launches.of_stages.at("Extend"), 2 * longest); // closed: some path reaches the limit
-    EXPECT_EQ(launches.of_stages.at("TestShadow"), 2 * (longest - 1)); // the last vertex is not joined
+    const Launches found = launches_of<Integrator::path>(our_scene("cornell_diffuse"));
+    EXPECT_EQ(found.of_stages.at("Extend"), found.of_stages.at("Shade"));
+    EXPECT_EQ(found.of_stages.at("Extend"), 2 * longest); // closed: some path reaches the limit
+    EXPECT_EQ(found.of_stages.at("TestShadow"), 2 * (longest - 1)); // the last vertex is not joined
 }
 
 images::RenderOptions options_for(Integrator integrator)
