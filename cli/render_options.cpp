@@ -112,8 +112,10 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
 /// The camera, the outputs and the messages.
 void add_output_options(CLI::App& command, RenderCommand& options)
 {
-    command.add_option("--exposure", options.exposure, "For .png: brighten the picture, in stops")
-        ->check(CLI::Range(-64.0, 64.0))
+    command
+        .add_option("--exposure", options.exposure,
+                    "For .png: brighten the picture, in stops, -64 to 64")
+        ->check(CLI::Range(-64.0, 64.0).description(""))
         ->capture_default_str();
     command.add_flag("--frame", options.frame, "Move the camera back until the whole scene is visible");
     command.add_flag("--resume", options.resume, "Continue the render in the .exr output, if it exists");

@@ -218,7 +218,7 @@ TEST(StageLaunches, AreThoseThatASceneRequires)
               (Names{"GenerateLight", "ShadeLight", "TestSplat", "GenerateEye", "Extend", "ShadeEye"}));
 }
 
-// Of a walk of one vertex no part is launched that prepares a second one.
+// The last vertex has no bounce, and is not joined.
 TEST(StageLaunches, EndWithTheLongestPath)
 {
     const Launches found = launches_of<Integrator::path>(our_scene("cornell_diffuse"));
