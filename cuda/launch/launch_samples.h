@@ -21,7 +21,7 @@ struct SampleJob {
 
 /// Whether launches of samples on this executor run in stages (launch_stages.h).
 template <class E>
-constexpr bool in_stages = false;
+inline constexpr bool in_stages = false;
 
 /// The words of memory that launch_samples needs for the queues of so many samples. The kernel for whole
 /// samples has none.

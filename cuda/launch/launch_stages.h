@@ -50,7 +50,7 @@ private:
 };
 
 template <class E>
-constexpr bool in_stages<StagedExecutor<E>> = true;
+inline constexpr bool in_stages<StagedExecutor<E>> = true;
 
 template <Executor E>
 E& builder_of(StagedExecutor<E>& executor)

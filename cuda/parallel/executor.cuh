@@ -14,13 +14,13 @@ constexpr std::uint32_t block_size = 256;
 /// The blocks that must fit on a multiprocessor, which has 65,536 registers. Two: a thread has at most
 /// 128 registers. A kernel may ask for more blocks by a member of this name: four leave 64 registers.
 template <class K>
-constexpr int least_blocks = 2;
+inline constexpr int least_blocks = 2;
 template <class K>
 requires requires
 {
     K::least_blocks;
 }
-constexpr int least_blocks<K> = K::least_blocks;
+inline constexpr int least_blocks<K> = K::least_blocks;
 
 /// The kernel stays in the memory of parameters, also where its address is passed to a function.
 template <Kernel K>
