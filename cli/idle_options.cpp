@@ -34,6 +34,7 @@ std::vector<Rule> rules_for(const RenderCommand& options)
         {"--builder", options.device != "ref", with_device + "the fast path has a tree of its own"},
         {"--threads", options.device == "cuda", with_device + "it is for the host's processor"},
         {"--instructions", options.device != "host", with_device + "it is for the host's fast path"},
+        {"--kernels", options.device != "cuda", with_device + "it is for the GPU"},
         {"--exposure", !writes(".png") && !sheet,
          "without a .png: neither --output nor --strategies-picture names one"},
         {"--unweighted", !layers, "without --strategies or --strategies-picture: it is for them"},

@@ -21,6 +21,7 @@ struct RenderCommand {
     unsigned threads = std::max(1U, std::thread::hardware_concurrency());
     std::string device = "ref";
     std::string instructions = "best";
+    std::string kernels = "samples";
     std::string integrator = "path";
     std::string builder = "sah-leaf";
     std::string heuristic = "balance";

@@ -76,6 +76,11 @@ void add_device_options(CLI::App& command, RenderCommand& options)
                     "For host: baseline, avx2, avx512 or best; changes no bit")
         ->check(one_of({"baseline", "avx2", "avx512", "best"}))
         ->capture_default_str();
+    command
+        .add_option("--kernels", options.kernels,
+                    "For cuda: whole samples, or stages of many; changes no bit")
+        ->check(one_of({"samples", "stages"}))
+        ->capture_default_str();
     command.add_flag("--deterministic", options.deterministic,
                      "The fast path gives the same bits every time; ref always does");
 }
@@ -107,8 +112,10 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
 /// The camera, the outputs and the messages.
 void add_output_options(CLI::App& command, RenderCommand& options)
 {
-    command.add_option("--exposure", options.exposure, "For .png: brighten the picture, in stops")
-        ->check(CLI::Range(-64.0, 64.0))
+    command
+        .add_option("--exposure", options.exposure,
+                    "For .png: brighten the picture, in stops, -64 to 64")
+        ->check(CLI::Range(-64.0, 64.0).description(""))
         ->capture_default_str();
     command.add_flag("--frame", options.frame, "Move the camera back until the whole scene is visible");
     command.add_flag("--resume", options.resume, "Continue the render in the .exr output, if it exists");

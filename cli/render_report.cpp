@@ -47,7 +47,8 @@ Json kernel_json(const std::optional<fast::Needs>& kernel)
     if (!kernel) return nullptr;
     return {{"spheres", kernel->spheres},
             {"specular", kernel->specular},
-            {"other_lights", kernel->other_lights}};
+            {"other_lights", kernel->other_lights},
+            {"coincident", kernel->coincident}};
 }
 
 } // namespace

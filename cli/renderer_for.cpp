@@ -41,7 +41,9 @@ std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, con
         return fast::host_renderer(scene, size.width, size.height, plan, options.threads,
                                    instructions_named(options.instructions));
     try {
-        return fast::device_renderer(scene, size.width, size.height, plan);
+        return fast::device_renderer(scene, size.width, size.height, plan,
+                                     options.kernels == "stages" ? fast::DeviceKernels::stages
+                                                                 : fast::DeviceKernels::samples);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(std::string("--device cuda: ") + error.what());
     }

@@ -13,7 +13,7 @@
 
 namespace fast {
 
-/// Limits on the samples of a launch and on the memory of their light vertices.
+/// Limits on the samples of a launch, and on the memory of their light vertices and queues.
 struct LaunchLimits {
     std::uint32_t least, most;
     std::size_t most_bytes;
@@ -138,14 +138,15 @@ private:
                   Needs at_least)
         : executor_(executor), options_(checked(options)), width_(width), height_(height),
           pixels_(pixel_count(width, height)), needs_(compiled_for(arrays.needs | at_least)),
-          scene_(memory, executor, arrays, camera_of(scene, arrays.place, width, height)),
+          scene_(memory, builder_of(executor), arrays, camera_of(scene, arrays.place, width, height)),
           capacity_(options_.integrator == Integrator::bdpt
                         ? most_light_vertices(arrays, options_.max_edges)
                         : 0),
-          launch_size_(limits, static_cast<std::size_t>(capacity_) * sizeof(LightVertex)),
+          launch_size_(limits, static_cast<std::size_t>(capacity_) * sizeof(LightVertex) +
+                                   (words_of_queues(1) - words_of_queues(0)) * sizeof(std::uint32_t)),
           own_(memory, launch_size_.most()),
           kept_(memory, static_cast<std::size_t>(capacity_) * launch_size_.most()),
-          sums_(memory, pixels_),
+          queues_(memory, words_of_queues(launch_size_.most())), sums_(memory, pixels_),
           splats_(memory, options.deterministic ? 0 : splat_pictures() * pixels_),
           exact_(memory, options.deterministic ? 3 * splat_pictures() * pixels_ : 0),
           layers_(memory, options.strategies == images::StrategyPictures::none
@@ -167,6 +168,10 @@ private:
                    ? 1
                    : 1 + static_cast<std::size_t>(options_.max_edges);
     }
+    [[nodiscard]] std::size_t words_of_queues(std::uint32_t samples) const
+    {
+        return queue_words(executor_, options_.integrator, samples);
+    }
     [[nodiscard]] std::size_t layer_count() const { return layer_of(options_.max_edges, 1) + 1; }
 
     void run(const Launch& launch)
@@ -178,7 +183,7 @@ private:
                               dropped_.all(),
                               options_.strategies == images::StrategyPictures::weighted,
                               pixels_};
-        const SampleJob job{path, launch, film, kept_.all(), capacity_};
+        const SampleJob job{path, launch, film, kept_.all(), capacity_, queues_.all()};
         switch (options_.integrator) {
         case Integrator::path:
             launch_samples<Integrator::path>(executor_, needs_, scene_, job);
@@ -254,6 +259,7 @@ private:
     LaunchSize launch_size_;
     Buffer<Rgb> own_;
     Buffer<LightVertex> kept_;
+    Buffer<std::uint32_t> queues_;
     Buffer<Rgb> sums_;
     Buffer<Rgb> splats_;
     Buffer<ExactSum> exact_;

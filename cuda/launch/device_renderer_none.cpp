@@ -8,7 +8,8 @@
 namespace fast {
 
 std::unique_ptr<Renderer> device_renderer(const scenes::Scene& /*scene*/, int /*width*/, int /*height*/,
-                                          const images::RenderOptions& /*options*/, Needs /*at_least*/)
+                                          const images::RenderOptions& /*options*/,
+                                          DeviceKernels /*kernels*/, Needs /*at_least*/)
 {
     throw std::runtime_error(find_device().description);
 }

@@ -11,7 +11,9 @@ void PLUMBLINE_KERNELS_OF(path)(fast::HostThreads& threads, fast::Needs needs,
         fast::trace_blocks<fast::PathMemory>(
             threads, job.launch.count(), 1024,
             [&](fast::PathMemory& memory, std::uint32_t first, std::uint32_t count) {
-                memory.trace(fast::StageExecutor(), stages, first, count);
+                fast::StageExecutor executor;
+                fast::HostStages run(executor);
+                memory.trace(run, stages, first, count);
             });
     });
 }

@@ -14,13 +14,16 @@ void launch_walks(HostThreads& threads, Needs needs, const SceneInMemory& scene,
 {
     with_needs(needs, [&]<Needs known>() {
         const StageJob<known> stages{scene.view<known>(), job.options, job.launch, job.film};
-        trace_blocks<WalkMemory>(threads, job.launch.count(), 512,
-                                 [&](WalkMemory& memory, std::uint32_t first, std::uint32_t count) {
-                                     const auto each = static_cast<std::size_t>(job.capacity);
-                                     memory.trace<integrator>(
-                                         StageExecutor(), stages, first, count,
-                                         job.kept.subspan(first * each, count * each), job.capacity);
-                                 });
+        using Memory = WalkMemory<integrator>;
+        trace_blocks<Memory>(threads, job.launch.count(), 512,
+                             [&](Memory& memory, std::uint32_t first, std::uint32_t count) {
+                                 const auto each = static_cast<std::size_t>(job.capacity);
+                                 StageExecutor executor;
+                                 HostStages run(executor);
+                                 memory.trace(run, stages, first, count,
+                                              job.kept.subspan(first * each, count * each),
+                                              job.capacity);
+                             });
     });
 }
 

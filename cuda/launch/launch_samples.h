@@ -16,7 +16,27 @@ struct SampleJob {
     FilmTarget film;
     std::span<LightVertex> kept;
     int capacity;
+    std::span<std::uint32_t> queues; // queue_words
 };
+
+/// Whether launches of samples on this executor run in stages (launch_stages.h).
+template <class E>
+inline constexpr bool in_stages = false;
+
+/// The words of memory that launch_samples needs for the queues of so many samples. The kernel for whole
+/// samples has none.
+template <Executor E>
+std::size_t queue_words(const E& /*executor*/, Integrator /*integrator*/, std::uint32_t /*samples*/)
+{
+    return 0;
+}
+
+/// The executor that builds the tree of a scene: this one, unless it runs on another.
+template <Executor E>
+E& builder_of(E& executor)
+{
+    return executor;
+}
 
 /// Calls function.operator()<Needs>() with the smallest compiled needs that include these.
 template <class Function>
@@ -35,7 +55,8 @@ void with_needs(const Needs& needs, const Function& function)
 
 /// Queues the samples of a job. Compiled once per integrator and executor, in a file of its own.
 template <Integrator integrator, Executor E>
-void launch_samples(E& executor, Needs needs, const SceneInMemory& scene, const SampleJob& job)
+requires(!in_stages<E>) void launch_samples(E& executor, Needs needs, const SceneInMemory& scene,
+                                            const SampleJob& job)
 {
     with_needs(needs, [&]<Needs known>() {
         executor(job.launch.count(),

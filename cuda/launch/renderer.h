@@ -38,8 +38,14 @@ std::unique_ptr<Renderer> host_renderer(const scenes::Scene& scene, int width, i
                                         InstructionSet instructions = best_instruction_set(),
                                         Needs at_least = {});
 
+/// How a GPU computes samples: by one kernel that computes whole samples, or by kernels for the stages
+/// of many samples (docs/stages.md). Both give the same bits.
+enum class DeviceKernels { samples, stages };
+
 /// The same on the first GPU. Throws std::runtime_error if there is no GPU, and for errors of CUDA.
 std::unique_ptr<Renderer> device_renderer(const scenes::Scene& scene, int width, int height,
-                                          const images::RenderOptions& options, Needs at_least = {});
+                                          const images::RenderOptions& options,
+                                          DeviceKernels kernels = DeviceKernels::samples,
+                                          Needs at_least = {});
 
 } // namespace fast

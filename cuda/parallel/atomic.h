@@ -38,6 +38,18 @@ HD inline std::uint32_t arrive(std::uint32_t& counter)
 #endif
 }
 
+/// Adds one to `counter` and returns its previous value, without ordering any other access: every thread
+/// gets a number of its own.
+HD inline std::uint32_t next_number(std::uint32_t& counter)
+{
+#if defined(__CUDA_ARCH__)
+    return atomicAdd(&counter, 1u);
+#else
+    if (schedule_point != nullptr) schedule_point();
+    return std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
+#endif
+}
+
 /// Adds `term` to `sum`, without ordering any other access. Sums of floats depend on the order of
 /// their terms, so concurrent additions may differ from run to run in the last bits.
 HD inline void add(float& sum, float term)

@@ -11,9 +11,21 @@ namespace fast {
 
 constexpr std::uint32_t block_size = 256;
 
-/// At least two blocks fit on a multiprocessor: no kernel may use more than 128 registers.
+/// The blocks that must fit on a multiprocessor, which has 65,536 registers. Two: a thread has at most
+/// 128 registers. A kernel may ask for more blocks by a member of this name: four leave 64 registers.
+template <class K>
+inline constexpr int least_blocks = 2;
+template <class K>
+requires requires
+{
+    K::least_blocks;
+}
+inline constexpr int least_blocks<K> = K::least_blocks;
+
+/// The kernel stays in the memory of parameters, also where its address is passed to a function.
 template <Kernel K>
-__global__ void __launch_bounds__(block_size, 2) run_kernel(K kernel, std::uint32_t count)
+__global__ void __launch_bounds__(block_size, least_blocks<K>)
+    run_kernel(const __grid_constant__ K kernel, std::uint32_t count)
 {
     const std::uint32_t index = blockIdx.x * blockDim.x + threadIdx.x;
     if (index < count) kernel(index);

@@ -24,4 +24,15 @@ HD inline float max_component(const Vec3& v)
     return glm::max(glm::max(v.x, v.y), v.z);
 }
 
+/// Coordinate `axis`. On a GPU an array that is indexed at run time lies in memory, so there the
+/// coordinate is chosen by comparisons.
+HD inline float coordinate(const Vec3& v, int axis)
+{
+#if defined(__CUDA_ARCH__)
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+#else
+    return (&v.x)[axis];
+#endif
+}
+
 } // namespace fast

@@ -153,6 +153,7 @@ SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette)
     }
     add_emitters(arrays, scene, radius);
     add_coincident(arrays, scene);
+    arrays.needs.coincident = !arrays.coincident.empty();
     add_clearances(arrays);
     add_end_contacts(arrays, scene);
     return arrays;
@@ -180,7 +181,7 @@ Needs needs_of(const scenes::Requirements& required)
     others.erase(scenes::EmitterKind::triangle);
     return {required.shapes.contains(scenes::Shape::sphere),
             required.bsdfs.contains(Bsdf::mirror) || required.bsdfs.contains(Bsdf::glass),
-            !others.empty()};
+            !others.empty(), false};
 }
 
 int most_light_vertices(const SceneArrays& arrays, int max_edges)

@@ -46,7 +46,8 @@ SceneArrays scene_arrays(const scenes::Scene& scene, bool roulette);
 /// The scene's camera for pictures of `width` x `height` pixels; the scene must have one.
 Camera camera_of(const scenes::Scene& scene, const Placement& place, int width, int height);
 
-/// The needs of a scene with these requirements. Coarser than they are where a distinction costs a
+/// The needs of a scene with these requirements, apart from coincident surfaces, of which they tell
+/// nothing. Coarser than they are where a distinction costs a
 /// kernel more than it saves (docs/cuda-bdpt.md has the measurements).
 Needs needs_of(const scenes::Requirements& required);
 

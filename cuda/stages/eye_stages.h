@@ -21,6 +21,7 @@ struct StoredEyeVertexOf {
 /// Over the samples of a block.
 template <Needs needs>
 struct GenerateEye {
+    static constexpr int least_blocks = stage_blocks;
     StageJob<needs> job;
     std::uint32_t first_slot;
     Rows<WalkStateOf> walks;
@@ -40,8 +41,9 @@ struct GenerateEye {
 };
 
 /// Over unfinished eye walks, at their vertex n.
-template <Needs needs>
+template <Needs needs, Part part>
 struct ShadeEye {
+    static constexpr int least_blocks = stage_blocks;
     StageJob<needs> job;
     int n;
     Rows<WalkStateOf> walks;
@@ -58,21 +60,26 @@ struct ShadeEye {
         WalkStateOf<F> walk = load(walks, index);
         HitOf<F> hit = load(hits, index);
         MaskOf<F> active = active_at(index) && hit.primitive != WordOf<F>(no_primitive);
-        if (scene.has_environment) add_environment(active_at(index) && !active, walk);
+        if constexpr (needs.other_lights && includes(part, Part::bounce))
+            if (scene.has_environment) add_environment(active_at(index) && !active, walk);
         if (none(active)) return;
         hit.primitive = select(active, hit.primitive, WordOf<F>(0u)); // any that exists
         MetSurfaceOf<F> met;
         const WalkVertexOf<F> v = walk_vertex(job, n, walk, hit, active, met);
-        const MaskOf<F> emits =
-            active && v.emitter != WordOf<F>(no_emitter) && glm::dot(v.point.normal, v.wo) > 0.0f;
-        if (any(emits))
-            add_emission(emits, walk,
-                         EmitterOf<F>(at(scene.emitters, select(emits, v.emitter, WordOf<F>(0u)))),
-                         v.pdf_area, v.pdf_rev_solid_angle(), v.previous_joinable, v.sums);
+        if constexpr (includes(part, Part::bounce)) {
+            const MaskOf<F> emits =
+                active && v.emitter != WordOf<F>(no_emitter) && glm::dot(v.point.normal, v.wo) > 0.0f;
+            if (any(emits))
+                add_emission(emits, walk,
+                             EmitterOf<F>(at(scene.emitters, select(emits, v.emitter, WordOf<F>(0u)))),
+                             v.pdf_area, v.pdf_rev_solid_angle(), v.previous_joinable, v.sums);
+        }
         if (n == job.options.max_edges) return;
         const SampleIdOf<F> id = job.template id_of<F>(walk.slot);
-        if (!scene.cumulative.empty()) join(active && scatters(v.material), id, walk.slot, v);
-        push(next, active && next_walk<needs, F>(v, met, id, Transport::radiance, walk), walk);
+        if constexpr (includes(part, Part::joins))
+            if (!scene.cumulative.empty()) join(active && scatters(v.material), id, walk.slot, v);
+        if constexpr (includes(part, Part::bounce))
+            push(next, active && next_walk<needs, F>(v, met, id, Transport::radiance, walk), walk);
     }
 
 private:
@@ -123,6 +130,7 @@ private:
 /// Over the eye vertices z_n: joins each to y_{s-1} of its sample, if there is one.
 template <Needs needs>
 struct Connect {
+    static constexpr int least_blocks = stage_blocks;
     StageJob<needs> job;
     int n, s;
     BlockVertices block;
@@ -148,7 +156,7 @@ struct Connect {
         const MaskOf<F> active = active_at(index) && !(at(std::span<const std::uint32_t>(block.counts),
                                                           sample) < WordOf<F>(before + 1));
         if (none(active)) return;
-        const LightVertexOf<F> y =
+        const LightVertexOf<F>& y =
             at(std::span<const LightVertex>(block.vertices), sample + WordOf<F>(before * block.samples));
         WaitingOf<F> result{{}, stored.slot};
         push(waiting,

@@ -15,8 +15,9 @@ struct WaitingSplatOf {
 };
 
 /// Over the samples of a block.
-template <Needs needs, Integrator integrator>
+template <Needs needs, Integrator integrator, Part part>
 struct GenerateLight {
+    static constexpr int least_blocks = stage_blocks;
     StageJob<needs> job;
     BlockVertices block;
     Queue<WalkStateOf> walks;
@@ -35,11 +36,14 @@ struct GenerateLight {
         const SampledEmissionOf<F> emission =
             sample_emission<needs, F>(scene, uniforms(id, Event::emission_position),
                                       uniforms(id, Event::emission_direction), active);
-        WaitingSplatOf<F> image{{}, WordOf<F>(0u), walk.slot};
-        push(waiting,
-             image_of_emitter_candidate<needs, integrator, F>(scene, job.options, emission, active,
-                                                              image.candidate, image.pixel),
-             image);
+        if constexpr (includes(part, Part::joins)) {
+            WaitingSplatOf<F> image{{}, WordOf<F>(0u), walk.slot};
+            push(waiting,
+                 image_of_emitter_candidate<needs, integrator, F>(scene, job.options, emission, active,
+                                                                  image.candidate, image.pixel),
+                 image);
+        }
+        if constexpr (!includes(part, Part::bounce)) return;
         const LegOf<F> leg = first_leg<needs, F>(scene, emission);
         walk.set_leg(leg);
         walk.alpha = emission.alpha;
@@ -54,8 +58,9 @@ struct GenerateLight {
 };
 
 /// Over unfinished light walks, at their vertex n.
-template <Needs needs, Integrator integrator>
+template <Needs needs, Integrator integrator, Part part>
 struct ShadeLight {
+    static constexpr int least_blocks = stage_blocks;
     StageJob<needs> job;
     int n;
     bool last; // whether walks end here
@@ -76,16 +81,18 @@ struct ShadeLight {
         hit.primitive = select(active, hit.primitive, WordOf<F>(0u)); // any that exists
         MetSurfaceOf<F> met;
         const WalkVertexOf<F> y = walk_vertex(job, n, walk, hit, active, met);
-        const Vec3Of<F> alpha = y.alpha * y.material.color * F(inverse_pi);
-        const MaskOf<F> joinable = active && scatters(y.material);
-        WaitingSplatOf<F> image{{}, WordOf<F>(0u), walk.slot};
-        push(waiting,
-             light_image_candidate<needs, integrator, F>(
-                 job.scene, job.options, n + 1, y.point, y.facing, y.pdf_area,
-                 y.bracket(1, job.options.heuristic), alpha, joinable, image.candidate, image.pixel),
-             image);
-        if constexpr (integrator == Integrator::bdpt) keep(active, joinable, walk.slot, y, alpha);
-        if (last) return;
+        if constexpr (includes(part, Part::joins)) {
+            const Vec3Of<F> alpha = y.alpha * y.material.color * F(inverse_pi);
+            const MaskOf<F> joinable = active && scatters(y.material);
+            if constexpr (integrator == Integrator::bdpt) keep(active, joinable, walk.slot, y, alpha);
+            WaitingSplatOf<F> image{{}, WordOf<F>(0u), walk.slot};
+            push(waiting,
+                 light_image_candidate<needs, integrator, F>(
+                     job.scene, job.options, n + 1, y.point, y.facing, y.pdf_area,
+                     y.bracket(1, job.options.heuristic), alpha, joinable, image.candidate, image.pixel),
+                 image);
+        }
+        if (!includes(part, Part::bounce) || last) return;
         const MaskOf<F> goes_on =
             next_walk<needs, F>(y, met, job.template id_of<F>(walk.slot), Transport::power, walk);
         push(next, active && goes_on, walk);
@@ -108,6 +115,7 @@ private:
 /// Over light images of y_{s-1}.
 template <Needs needs>
 struct TestSplat {
+    static constexpr int least_blocks = stage_blocks;
     StageJob<needs> job;
     int s;
     Rows<WaitingSplatOf> waiting;

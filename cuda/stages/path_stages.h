@@ -32,6 +32,7 @@ struct PathStateOf {
 /// Over the samples of a block of a launch.
 template <Needs needs>
 struct Generate {
+    static constexpr int least_blocks = stage_blocks;
     StageJob<needs> job;
     std::uint32_t first_slot;
     Rows<PathStateOf> paths;
@@ -49,8 +50,9 @@ struct Generate {
 };
 
 /// Over unfinished paths, at their vertex n.
-template <Needs needs>
+template <Needs needs, Part part>
 struct Shade {
+    static constexpr int least_blocks = stage_blocks;
     StageJob<needs> job;
     int n;
     Rows<PathStateOf> paths;
@@ -67,9 +69,10 @@ struct Shade {
         HitOf<F> hit = load(hits, index);
         MaskOf<F> active = active_at(index) && hit.primitive != WordOf<F>(no_primitive);
         const MaskOf<F> joinable = path.joinable != WordOf<F>(0u);
-        if (scene.has_environment)
-            add_emission(active_at(index) && !active, path, joinable, path.pdf_direction,
-                         EmitterOf<F>(at(scene.emitters, last_emitter<F>())));
+        if constexpr (needs.other_lights && includes(part, Part::bounce))
+            if (scene.has_environment)
+                add_emission(active_at(index) && !active, path, joinable, path.pdf_direction,
+                             EmitterOf<F>(at(scene.emitters, last_emitter<F>())));
         if (none(active)) return;
         hit.primitive = select(active, hit.primitive, WordOf<F>(0u)); // any that exists
 
@@ -80,15 +83,20 @@ struct Shade {
                      F(0.0f)};
         const MetSurfaceOf<F> met = meet_surface<needs, F>(scene, leg, hit, active);
         active = active && met.pdf_area > 0.0f; // else in the plane of the surface: the density is 0
-        const MaskOf<F> emits =
-            active && met.emitter != WordOf<F>(no_emitter) && glm::dot(met.point.normal, met.wo) > 0.0f;
-        if (any(emits))
-            add_emission(emits, path, joinable, met.pdf_area,
-                         EmitterOf<F>(at(scene.emitters, select(emits, met.emitter, WordOf<F>(0u)))));
+        if constexpr (includes(part, Part::bounce)) {
+            const MaskOf<F> emits = active && met.emitter != WordOf<F>(no_emitter) &&
+                                    glm::dot(met.point.normal, met.wo) > 0.0f;
+            if (any(emits))
+                add_emission(
+                    emits, path, joinable, met.pdf_area,
+                    EmitterOf<F>(at(scene.emitters, select(emits, met.emitter, WordOf<F>(0u)))));
+        }
         if (n == job.options.max_edges) return;
 
         const SampleIdOf<F> id = job.template id_of<F>(path.slot);
-        if (!scene.cumulative.empty()) next_event(active && scatters(met.material), id, path, met);
+        if constexpr (includes(part, Part::joins))
+            if (!scene.cumulative.empty()) next_event(active && scatters(met.material), id, path, met);
+        if constexpr (!includes(part, Part::bounce)) return;
 
         const UniformsOf<F> u = uniforms(id, Event::eye_bounce, static_cast<std::uint32_t>(n));
         Vec3Of<F> alpha = path.alpha;

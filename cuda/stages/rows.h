@@ -88,7 +88,7 @@ struct Queue {
 template <template <class> class Record>
 HD void push(const Queue<Record>& queue, bool mask, const Record<float>& value)
 {
-    if (mask) store(queue.rows, arrive(*queue.count), value);
+    if (mask) store(queue.rows, next_number(*queue.count), value);
 }
 
 } // namespace fast

@@ -17,6 +17,20 @@ struct WaitingOf {
     WordOf<F> slot;
 };
 
+/// Four blocks of a stage fit on a multiprocessor of a GPU, for half of the threads that it can hold at
+/// most (cuda/parallel/executor.cuh).
+constexpr int stage_blocks = 4;
+
+/// What a stage does at a vertex of its paths: all of it; or only the bounce, with the emission; or only
+/// the joins to other vertices. In parts, each stage computes the vertex again, and a GPU needs fewer
+/// registers for it (docs/gpu.md).
+enum class Part { all, bounce, joins };
+
+constexpr bool includes(Part part, Part other)
+{
+    return part == Part::all || part == other;
+}
+
 /// What all stages of a launch have in common.
 template <Needs needs>
 struct StageJob {
@@ -44,6 +58,7 @@ struct StageJob {
 /// Over unfinished paths.
 template <Needs needs, template <class> class State>
 struct Extend {
+    static constexpr int least_blocks = stage_blocks;
     StageJob<needs> job;
     Rows<State> paths;
     Rows<HitOf> hits; // of the same indices
@@ -64,6 +79,7 @@ struct Extend {
 /// Over candidates of the strategy (s, t), which add to their own pixels.
 template <Needs needs>
 struct TestShadow {
+    static constexpr int least_blocks = stage_blocks;
     StageJob<needs> job;
     int s, t;
     Rows<WaitingOf> waiting;

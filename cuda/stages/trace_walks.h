@@ -3,6 +3,7 @@
 // The loops over the stages of bidirectional path tracing and of light tracing.
 
 #include "cuda/stages/bdpt_stages.h"
+#include "cuda/stages/run_stages.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,78 +11,110 @@
 namespace fast {
 
 /// The memory for the unfinished walks of a block.
+template <Integrator integrator>
 class WalkMemory {
+    static constexpr bool with_eye_walks = integrator == Integrator::bdpt;
+    enum Queues : std::size_t { going_on, candidates, eye_vertices, queues };
+
 public:
-    /// For up to `capacity` samples. `words`: words_for(capacity).
+    /// For up to `capacity` samples. `words`: words_for(capacity), in the memory of the stages.
     WalkMemory(std::span<std::uint32_t> words, std::uint32_t capacity)
     {
-        const auto take = [&](std::size_t count) {
-            const std::span<std::uint32_t> taken = words.first(count);
-            words = words.subspan(count);
-            return taken;
-        };
-        counts_ = take(4 * counts_apart);
-        vertices_of_samples_ = take(capacity);
-        for (Rows<WalkStateOf>& rows : walks_)
-            rows = {take(Rows<WalkStateOf>::words_for(capacity)), capacity};
-        hits_ = {take(Rows<HitOf>::words_for(capacity)), capacity};
-        waiting_ = {take(Rows<WaitingOf>::words_for(capacity)), capacity};
-        splats_ = {take(Rows<WaitingSplatOf>::words_for(capacity)), capacity};
-        eye_vertices_ = {take(Rows<StoredEyeVertexOf>::words_for(capacity)), capacity};
+        WordPool pool(words);
+        counts_ = QueueCounts<queues>(pool);
+        for (Rows<WalkStateOf>& rows : walks_) rows = pool.rows<Rows<WalkStateOf>>(capacity);
+        hits_ = pool.rows<Rows<HitOf>>(capacity);
+        splats_ = pool.rows<Rows<WaitingSplatOf>>(capacity);
+        if constexpr (with_eye_walks) {
+            vertices_of_samples_ = pool.take(capacity);
+            waiting_ = pool.rows<Rows<WaitingOf>>(capacity);
+            eye_vertices_ = pool.rows<Rows<StoredEyeVertexOf>>(capacity);
+        }
     }
     static constexpr std::size_t words_for(std::uint32_t capacity)
     {
-        return 4 * counts_apart + capacity + 2 * Rows<WalkStateOf>::words_for(capacity) +
-               Rows<HitOf>::words_for(capacity) + Rows<WaitingOf>::words_for(capacity) +
-               Rows<WaitingSplatOf>::words_for(capacity) + Rows<StoredEyeVertexOf>::words_for(capacity);
+        return QueueCounts<queues>::words + 2 * Rows<WalkStateOf>::words_for(capacity) +
+               Rows<HitOf>::words_for(capacity) + Rows<WaitingSplatOf>::words_for(capacity) +
+               (with_eye_walks ? capacity + Rows<WaitingOf>::words_for(capacity) +
+                                     Rows<StoredEyeVertexOf>::words_for(capacity)
+                               : 0);
     }
 
-    /// Traces the samples first_slot ... first_slot + count - 1 of a launch. `run` executes each stage
-    /// and returns when it is done. `kept`: memory for `most_vertices` light vertices of each sample;
-    /// only Integrator::bdpt uses it.
-    template <Integrator integrator, Needs needs, class Run>
-    void trace(Run&& run, const StageJob<needs>& job, std::uint32_t first_slot, std::uint32_t count,
+    /// Traces the samples first_slot ... first_slot + count - 1 of a launch. `run`: run_stages.h.
+    /// `kept`: memory for `most_vertices` light vertices of each sample; only Integrator::bdpt uses it.
+    /// Reads counts once for each vertex of the longest walk, and for each s to which an eye vertex is
+    /// joined. A stage that has nothing to do is not run.
+    template <Needs needs, class Run>
+    void trace(Run& run, const StageJob<needs>& job, std::uint32_t first_slot, std::uint32_t count,
                std::span<LightVertex> kept, int most_vertices)
     {
-        for (std::uint32_t i = 0; i < count; ++i) job.film.own[first_slot + i] = Rgb(0.0f);
+        run.clear(job.film.own.subspan(first_slot, count));
         const BlockVertices block{first_slot, count, kept, vertices_of_samples_};
-        std::fill_n(vertices_of_samples_.begin(), count, 0u);
         int longest = 0; // light walk, in vertices after y_0
-        if (!job.scene.cumulative.empty())
-            longest = trace_light<integrator>(run, job, block, most_vertices);
-        if constexpr (integrator == Integrator::bdpt) trace_eye(run, job, block, longest);
+        if (!job.scene.cumulative.empty()) longest = trace_light(run, job, block, most_vertices);
+        if constexpr (with_eye_walks) trace_eye(run, job, block, longest);
     }
 
 private:
-    template <Integrator integrator, Needs needs, class Run>
+    template <Needs needs, class Run>
     int trace_light(Run& run, const StageJob<needs>& job, const BlockVertices& block, int most_vertices)
     {
-        const int last =
-            (integrator == Integrator::bdpt ? std::min(job.options.max_edges, most_vertices + 1)
-                                            : job.options.max_edges) -
-            1;
-        going_on() = 0;
-        candidates() = 0;
-        run(block.samples, GenerateLight<needs, integrator>{
-                               job, block, {walks_[0], &going_on()}, {splats_, &candidates()}});
-        run(candidates(), TestSplat<needs>{job, 1, splats_});
+        const int last = (with_eye_walks ? std::min(job.options.max_edges, most_vertices + 1)
+                                         : job.options.max_edges) -
+                         1;
+        if constexpr (with_eye_walks) run.clear(vertices_of_samples_.first(block.samples));
+        counts_.clear(run);
+        if constexpr (Run::in_parts && needs.coincident) {
+            generate_light<Part::joins>(run, job, block);
+            generate_light<Part::bounce>(run, job, block);
+        } else {
+            generate_light<Part::all>(run, job, block);
+        }
+        auto filled = counts_.read(run);
+        test_splats(run, job, 1, filled[candidates]);
         int n = 1;
-        for (std::uint32_t count = going_on(); n <= last && count > 0; ++n, count = going_on()) {
-            going_on() = 0;
-            candidates() = 0;
-            run(count, Extend<needs, WalkStateOf>{job, walks_[0], hits_});
-            run(count, ShadeLight<needs, integrator>{job,
-                                                     n,
-                                                     n == last,
-                                                     block,
-                                                     walks_[0],
-                                                     hits_,
-                                                     {walks_[1], &going_on()},
-                                                     {splats_, &candidates()}});
-            run(candidates(), TestSplat<needs>{job, n + 1, splats_});
+        for (; n <= last && filled[going_on] > 0; ++n) {
+            run(filled[going_on], Extend<needs, WalkStateOf>{job, walks_[0], hits_});
+            counts_.clear(run);
+            if constexpr (Run::in_parts) {
+                shade_light<Part::joins>(run, job, block, n, last, filled[going_on]);
+                if (n < last) shade_light<Part::bounce>(run, job, block, n, last, filled[going_on]);
+            } else {
+                shade_light<Part::all>(run, job, block, n, last, filled[going_on]);
+            }
+            filled = counts_.read(run);
+            test_splats(run, job, n + 1, filled[candidates]);
             std::swap(walks_[0], walks_[1]);
         }
         return n - 1;
+    }
+
+    template <Part part, Needs needs, class Run>
+    void generate_light(Run& run, const StageJob<needs>& job, const BlockVertices& block)
+    {
+        run(block.samples,
+            GenerateLight<needs, integrator, part>{
+                job, block, {walks_[0], counts_.of(going_on)}, {splats_, counts_.of(candidates)}});
+    }
+
+    template <Part part, Needs needs, class Run>
+    void shade_light(Run& run, const StageJob<needs>& job, const BlockVertices& block, int n, int last,
+                     std::uint32_t count)
+    {
+        run(count, ShadeLight<needs, integrator, part>{job,
+                                                       n,
+                                                       n == last,
+                                                       block,
+                                                       walks_[0],
+                                                       hits_,
+                                                       {walks_[1], counts_.of(going_on)},
+                                                       {splats_, counts_.of(candidates)}});
+    }
+
+    template <Needs needs, class Run>
+    void test_splats(Run& run, const StageJob<needs>& job, int s, std::uint32_t count)
+    {
+        if (count > 0) run(count, TestSplat<needs>{job, s, splats_});
     }
 
     template <Needs needs, class Run>
@@ -89,40 +122,61 @@ private:
     {
         run(block.samples, GenerateEye<needs>{job, block.first_slot, walks_[0]});
         std::uint32_t count = block.samples;
-        for (int n = 1; n <= job.options.max_edges && count > 0; ++n, count = going_on()) {
-            going_on() = 0;
-            candidates() = 0;
-            eye_vertices() = 0;
+        for (int n = 1; count > 0; ++n) {
             run(count, Extend<needs, WalkStateOf>{job, walks_[0], hits_});
-            run(count, ShadeEye<needs>{job,
-                                       n,
-                                       walks_[0],
-                                       hits_,
-                                       {walks_[1], &going_on()},
-                                       {waiting_, &candidates()},
-                                       {eye_vertices_, &eye_vertices()}});
-            run(candidates(), TestShadow<needs>{job, 1, n + 1, waiting_});
-            for (int s = 2; s <= longest + 1 && s + n <= job.options.max_edges; ++s) {
-                candidates() = 0;
-                run(eye_vertices(),
-                    Connect<needs>{job, n, s, block, eye_vertices_, {waiting_, &candidates()}});
-                run(candidates(), TestShadow<needs>{job, s, n + 1, waiting_});
+            counts_.clear(run);
+            if constexpr (Run::in_parts) {
+                if (n < job.options.max_edges && !job.scene.cumulative.empty())
+                    shade_eye<Part::joins>(run, job, n, count);
+                shade_eye<Part::bounce>(run, job, n, count);
+            } else {
+                shade_eye<Part::all>(run, job, n, count);
             }
+            if (n == job.options.max_edges) return; // no bounce and nothing to join
+            const auto filled = counts_.read(run);
+            test_shadows(run, job, 1, n + 1, filled[candidates]);
+            if (filled[eye_vertices] > 0)
+                for (int s = 2; s <= longest + 1 && s + n <= job.options.max_edges; ++s)
+                    connect(run, job, block, n, s, filled[eye_vertices]);
             std::swap(walks_[0], walks_[1]);
+            count = filled[going_on];
         }
     }
 
-    static constexpr std::size_t counts_apart = 16; // a cache line
-    [[nodiscard]] std::uint32_t& going_on() { return counts_[0]; }
-    [[nodiscard]] std::uint32_t& candidates() { return counts_[counts_apart]; }
-    [[nodiscard]] std::uint32_t& eye_vertices() { return counts_[2 * counts_apart]; }
+    template <Part part, Needs needs, class Run>
+    void shade_eye(Run& run, const StageJob<needs>& job, int n, std::uint32_t count)
+    {
+        run(count, ShadeEye<needs, part>{job,
+                                         n,
+                                         walks_[0],
+                                         hits_,
+                                         {walks_[1], counts_.of(going_on)},
+                                         {waiting_, counts_.of(candidates)},
+                                         {eye_vertices_, counts_.of(eye_vertices)}});
+    }
 
-    std::span<std::uint32_t> counts_;
-    std::span<std::uint32_t> vertices_of_samples_;
+    template <Needs needs, class Run>
+    void connect(Run& run, const StageJob<needs>& job, const BlockVertices& block, int n, int s,
+                 std::uint32_t count)
+    {
+        counts_.clear(run);
+        run(count, Connect<needs>{job, n, s, block, eye_vertices_, {waiting_, counts_.of(candidates)}});
+        test_shadows(run, job, s, n + 1, counts_.read(run)[candidates]);
+    }
+
+    template <Needs needs, class Run>
+    void test_shadows(Run& run, const StageJob<needs>& job, int s, int t, std::uint32_t count)
+    {
+        if (count > 0) run(count, TestShadow<needs>{job, s, t, waiting_});
+    }
+
+    QueueCounts<queues> counts_;
     Rows<WalkStateOf> walks_[2]; // at vertex n, and those that go on
     Rows<HitOf> hits_;
-    Rows<WaitingOf> waiting_;
     Rows<WaitingSplatOf> splats_;
+    // Of eye walks only.
+    std::span<std::uint32_t> vertices_of_samples_; // of their light walks
+    Rows<WaitingOf> waiting_;
     Rows<StoredEyeVertexOf> eye_vertices_;
 };
 

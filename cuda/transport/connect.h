@@ -28,7 +28,14 @@ struct EyeVertexOf {
     F brackets[5];   // WalkVertex::bracket for s = 1, 2, 3, 4, and 5 or more; path tracing needs none
 
     /// B of docs/cuda-bdpt.md, equation (4), for a join to a light walk of s >= 1 vertices.
-    [[nodiscard]] HD const F& bracket(int s) const { return brackets[glm::min(s, 5) - 1]; }
+    /// (Chosen by comparisons, since a GPU has no registers that are numbered at run time.)
+    [[nodiscard]] HD F bracket(int s) const
+    {
+        F found = brackets[4];
+        for (int i = 0; i < 4; ++i)
+            if (s == i + 1) found = brackets[i];
+        return found;
+    }
 };
 using EyeVertex = EyeVertexOf<float>;
 
@@ -52,8 +59,7 @@ HD bool visible(const SceneView<needs>& scene, const Vec3& from, const Vec3& to)
 /// middle, since a surface at its end does not stop it. `position`: a point on the surface that `a`
 /// has left. `d`: the vector from there to the corresponding point of b.
 template <Needs needs>
-SELDOM HD bool visible_from_both(const SceneView<needs>& scene, const Vec3& a, const Vec3& b,
-                                 const Vec3& position, const Vec3& d)
+SELDOM HD bool visible_from_both(const SceneView<needs>& scene, Vec3 a, Vec3 b, Vec3 position, Vec3 d)
 {
     return visible(scene, a, position + 0.75f * d) && visible(scene, b, position + 0.25f * d);
 }
@@ -220,14 +226,15 @@ HD MaskOf<F> inner_connection_candidate(const SceneView<needs>& scene, const Pat
     candidate.ray.origin = leave_to_side(z.point, z.facing);
     candidate.ray.t_max = 1.0f;
     candidate.ray.direction = y.position + clearance * y.facing - candidate.ray.origin;
-    one_by_one(active && y.clearance < 0.0f, [&](auto lane) {
-        const LightVertex near = lane_of(y, lane);
-        if (!visible_from_both(scene, lane_of(candidate.ray.origin, lane),
-                               near.position - near.clearance * near.facing,
-                               lane_of(z.point.position, lane), lane_of(d, lane)))
-            put_lane(active, lane, false);
-        put_lane(candidate.ray.direction, lane, Vec3(0.0f)); // not a ray: it is never occluded
-    });
+    if constexpr (needs.coincident)
+        one_by_one(active && y.clearance < 0.0f, [&](auto lane) {
+            const LightVertex near = lane_of(y, lane);
+            if (!visible_from_both(scene, lane_of(candidate.ray.origin, lane),
+                                   near.position - near.clearance * near.facing,
+                                   lane_of(z.point.position, lane), lane_of(d, lane)))
+                put_lane(active, lane, false);
+            put_lane(candidate.ray.direction, lane, Vec3(0.0f)); // not a ray: it is never occluded
+        });
     // Converts a density per projected solid angle at one end to one per area at the other: both
     // cosines, over the squared distance.
     const F pdf_rev_area_y = z.pdf_projected * geometry;

@@ -49,7 +49,7 @@ HD inline std::uint32_t meeting_rank(const Material& material, bool from_front)
 /// sees: the first along the ray, where doubles can tell although floats cannot; otherwise the one of
 /// lowest rank; of equal ranks the one of lowest number.
 template <Needs needs>
-SELDOM HD Hit first_of_several(const SceneView<needs>& scene, const Ray& ray, const Hit& hit)
+SELDOM HD Hit first_of_several(const SceneView<needs>& scene, Ray ray, Hit hit)
 {
     const SurfaceContacts& contacts = scene.surface_contacts[scene.surfaces[hit.primitive].contacts];
     const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
@@ -93,6 +93,7 @@ template <Needs needs, class F>
 HD HitOf<F> first_of_coincident(const SceneView<needs>& scene, const RayOf<F>& ray, HitOf<F> hit,
                                 const MaskOf<F>& active)
 {
+    if constexpr (!needs.coincident) return hit;
     if (scene.coincident.empty()) return hit;
     one_by_one(active && at(scene.surfaces, hit.primitive).contacts != WordOf<F>(0u), [&](auto lane) {
         put_lane(hit, lane, first_of_several(scene, lane_of(ray, lane), lane_of(hit, lane)));
@@ -102,8 +103,7 @@ HD HitOf<F> first_of_coincident(const SceneView<needs>& scene, const RayOf<F>& r
 
 /// See sees_first.
 template <Needs needs>
-SELDOM HD bool sees_first_of_several(const SceneView<needs>& scene, const SurfacePoint& point,
-                                     const Vec3& towards)
+SELDOM HD bool sees_first_of_several(const SceneView<needs>& scene, SurfacePoint point, Vec3 towards)
 {
     const SurfaceContacts& contacts = scene.surface_contacts[scene.surfaces[point.primitive].contacts];
     // From some distance, so that t is not near 0; but not farther away than the size of the surfaces.
@@ -134,6 +134,7 @@ HD MaskOf<F> sees_first(const SceneView<needs>& scene, const SurfacePointOf<F>& 
                         const Vec3Of<F>& towards, const MaskOf<F>& active)
 {
     MaskOf<F> first = true;
+    if constexpr (!needs.coincident) return first;
     if (scene.coincident.empty()) return first;
     one_by_one(active && at(scene.surfaces, point.primitive).contacts != WordOf<F>(0u), [&](auto lane) {
         put_lane(first, lane,

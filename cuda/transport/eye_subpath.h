@@ -65,7 +65,7 @@ HD void eye_subpath(const SceneView<needs>& scene, const PathOptions& options, c
         },
         [&](const Leg& last, int n, const Rgb& alpha, bool previous_joinable, const RunningSums& sums) {
             show_miss(sink, Transport::radiance, last);
-            if (scene.has_environment)
+            if (needs.other_lights && scene.has_environment)
                 emission_hit<needs, integrator>(options, scene.emitters.back(), n + 1, alpha,
                                                 last.pdf_direction, pdf_area_disc(scene),
                                                 previous_joinable, sums, sink);

@@ -56,7 +56,7 @@ HD LightVertexOf<F> light_vertex(const SceneView<needs>& scene, Heuristic heuris
                                  const WalkVertexOf<F>& y, const Vec3Of<F>& alpha)
 {
     F clearance = y.point.clearance;
-    if (!scene.coincident.empty())
+    if (needs.coincident && !scene.coincident.empty())
         one_by_one(true_for_all<F>(), [&](auto lane) {
             const std::uint32_t contacts = scene.surfaces[lane_of(y.point.primitive, lane)].contacts;
             if (scene.surface_contacts[contacts].near_count > 0)

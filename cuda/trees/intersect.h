@@ -55,8 +55,7 @@ public:
 private:
     [[nodiscard]] HD Vec3 permuted(const Vec3& v) const
     {
-        const float* const axis = &v.x;
-        return {axis[kx_], axis[ky_], axis[kz_]};
+        return {coordinate(v, kx_), coordinate(v, ky_), coordinate(v, kz_)};
     }
 
     int kx_, ky_, kz_;

@@ -323,13 +323,16 @@ TEST(Render, JsonSaysWhatTheSceneRequiresAndWhichKernelWasUsed)
                     {"strategies", {"emission_hit", "next_event", "light_image", "inner_connection"}},
                     {"fov_axes", {"horizontal"}}}));
     EXPECT_TRUE(glass.at("kernel").is_null()) << "the reference has none";
-    EXPECT_EQ(json_of("cornell_glass", "host").at("kernel"),
-              Json({{"spheres", true}, {"specular", true}, {"other_lights", false}}));
-    EXPECT_EQ(json_of("mesh_knot", "host").at("kernel"),
-              Json({{"spheres", false}, {"specular", false}, {"other_lights", false}}));
+    EXPECT_EQ(
+        json_of("cornell_glass", "host").at("kernel"),
+        Json({{"spheres", true}, {"specular", true}, {"other_lights", false}, {"coincident", false}}));
+    EXPECT_EQ(
+        json_of("mesh_knot", "host").at("kernel"),
+        Json({{"spheres", false}, {"specular", false}, {"other_lights", false}, {"coincident", false}}));
     // Its light alone would do, but kernels are compiled for few combinations.
-    EXPECT_EQ(json_of("point_over_plane", "host").at("kernel"),
-              Json({{"spheres", true}, {"specular", true}, {"other_lights", true}}));
+    EXPECT_EQ(
+        json_of("point_over_plane", "host").at("kernel"),
+        Json({{"spheres", true}, {"specular", true}, {"other_lights", true}, {"coincident", true}}));
 }
 
 TEST(Render, ThreadsChangeNoByteOfAFile)

@@ -65,11 +65,15 @@ class WithFakes(Day):
         self.assertEqual(steps["tests.cuda"]["numbers"]["passed"], 2)
         self.assertEqual(steps["tests.cuda"]["numbers"]["milliseconds"]["Every/LbvhOn.B/device30"], 12)
         self.assertEqual(steps["sanitize.memcheck.tests"]["numbers"], {"errors": 0, "tests_passed": 2})
-        self.assertEqual(steps["sanitize.racecheck.renders"]["numbers"]["bdpt"], {"errors": 0})
-        rate = steps["bench.pictures"]["numbers"]["cornell_glass bdpt"]["samples_per_second"]
-        self.assertEqual(rate, {"rounds": [2e6] * 3, "mean": 2e6, "half_width_95": 0.0})
+        self.assertEqual(steps["sanitize.racecheck.renders"]["numbers"]["bdpt stages"], {"errors": 0})
+        for kernels in ("samples", "stages"):  # both: the first day with a GPU decides between them
+            rate = steps["bench.pictures"]["numbers"][f"cornell_glass bdpt {kernels}"]["samples_per_second"]
+            self.assertEqual(rate, {"rounds": [2e6] * 3, "mean": 2e6, "half_width_95": 0.0})
+            self.assertIn(f"mesh_knot path {kernels}", steps["bench.renders"]["numbers"])
+            for name in ("bench.renders", "bench.pictures", "sanitize.memcheck.renders", "ncu.path"):
+                self.assertTrue(any(f"--kernels {kernels} " in command for command in steps[name]["commands"]), name)
         self.assertEqual(len(steps["bench.trees"]["numbers"]["million"]["morton30 sort ms"]["rounds"]), 5)
-        launch = steps["ncu.bdpt"]["numbers"]["launches"][1]
+        launch = steps["ncu.bdpt"]["numbers"]["samples"]["launches"][1]
         self.assertEqual(launch["Registers Per Thread (register/thread)"], 128)
         self.assertEqual((launch["Grid Size"], launch["Achieved Occupancy (%)"]), (4096, 24.5))
 
@@ -108,7 +112,7 @@ class WithFakes(Day):
 
     def test_the_sanitizers_errors_and_refusals_are_failures(self):
         self.replace("bin/compute-sanitizer", fakes.SANITIZER_WITH_ERRORS)
-        self.expect("sanitize.memcheck.renders", "failed", "path: 3 errors", 1)
+        self.expect("sanitize.memcheck.renders", "failed", "path samples: 3 errors", 1)
         self.replace("bin/compute-sanitizer", fakes.SANITIZER_REFUSED)
         self.expect("sanitize.memcheck.tests", "failed", "no summary: Error: Device not supported", 1)
         self.replace("bin/compute-sanitizer", fakes.SANITIZER)
@@ -133,11 +137,11 @@ class WithFakes(Day):
         self.expect("gpu.device", "failed", "built without nvcc", 1)
 
     def test_a_time_limit_keeps_the_rounds_that_ended(self):
-        self.replace("build/plumbline", f'[ $(echo x >>"$0.n"; grep -c x "$0.n") -lt 6 ] || sleep 60\n{fakes.PLUMBLINE}')
+        self.replace("build/plumbline", f'[ $(echo x >>"$0.n"; grep -c x "$0.n") -lt 10 ] || sleep 60\n{fakes.PLUMBLINE}')
         (self.tools / "grep").symlink_to("/bin/grep")
-        step = self.expect("bench.pictures", "timed out", "in round 2 of 3", 1, "--limit", "1.5")
+        step = self.expect("bench.pictures", "timed out", "in round 2 of 3", 1, "--limit", "2.5")
         rounds = [len(numbers["seconds"]["rounds"]) for numbers in step["numbers"].values()]
-        self.assertEqual(sum(rounds), 5)
+        self.assertEqual(sum(rounds), 9)
 
     def test_an_interrupted_run_keeps_what_it_has(self):
         self.replace("build/tests/test_renders", fakes.HANGING)

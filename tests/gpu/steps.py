@@ -39,19 +39,20 @@ SMALL_TESTS = ":".join(("OnDevice.ABuildCanBeCapturedInAGraph", "OnDevice.Stages
                         "*.IsTheReferenceTreeOfItsCodesForEveryKindOfInput/device*"))
 MUST = {"PLUMBLINE_REQUIRE_GPU": "1"}  # without a usable GPU, tests fail instead of being skipped
 INTEGRATORS = ("path", "bdpt")
+KERNELS = ("samples", "stages")  # a kernel for whole samples, or one for each stage (docs/stages.md)
 
 
 def all_steps(build, scratch):
     """The steps for the programs of the folder `build`; pictures go to the folder `scratch`."""
     plumbline, test_cuda, test_renders = build / "plumbline", build / "tests/test_cuda", build / "tests/test_renders"
 
-    def render(scene, integrator, size, samples, *more):
+    def render(scene, integrator, kernels, size, samples, *more):
         return [plumbline, "render", f"scenes/{scene}.dae", "-o", f"{scratch}/picture.pfm", "--device", "cuda",
-                "--integrator", integrator, "--max-edges", "6", "--size", size, "-s", str(samples), "-q", *more]
+                "--kernels", kernels, "--integrator", integrator, "--max-edges", "6", "--size", size, "-s", str(samples), "-q", *more]
 
     def renders(scenes, size, samples):
-        return [Command(f"{scene} {integrator}", render(scene, integrator, size, samples, "--json"))
-                for scene in scenes for integrator in INTEGRATORS]
+        return [Command(f"{scene} {integrator} {kernels}", render(scene, integrator, kernels, size, samples, "--json"))
+                for scene in scenes for integrator in INTEGRATORS for kernels in KERNELS]
 
     def tests(program, pattern):
         return [program, f"--gtest_filter={pattern}"]
@@ -70,9 +71,9 @@ def all_steps(build, scratch):
         "sh", "-c", 'for i in nvidia-smi compute-sanitizer ncu nvcc; do echo "$i $(command -v $i)"; done'])],
         readings.tools)
 
-    yield Step("tests.cuda", "device tests: trees, rays, renderer", 60,
+    yield Step("tests.cuda", "device tests: trees, rays, renderer, stages", 60,
                [Command("", tests(test_cuda, "*OnDevice.*:*/device*"), MUST)], readings.gtest)
-    yield Step("tests.renders", "device renders of every scene against its golden", 90,
+    yield Step("tests.renders", "device renders of every scene against its golden", 85,
                [Command("", tests(test_renders, "*OnADeviceAllAgree*"), MUST)], readings.gtest)
 
     for check in ("memcheck", "racecheck", "initcheck", "synccheck"):
@@ -80,20 +81,21 @@ def all_steps(build, scratch):
         yield Step(f"sanitize.{check}.tests", f"a few device tests under {check}", 12,
                    [Command("", under + tests(test_cuda, SMALL_TESTS), MUST)], readings.sanitized_gtest,
                    tool="compute-sanitizer")
-        yield Step(f"sanitize.{check}.renders", f"small renders under {check}", 12,
-                   [Command(i, under + render("cornell_glass", i, "16x12", 1)) for i in (*INTEGRATORS, "light")],
+        yield Step(f"sanitize.{check}.renders", f"small renders under {check}", 14,
+                   [Command(f"{i} {kernels}", under + render("cornell_glass", i, kernels, "16x12", 1))
+                    for i in (*INTEGRATORS, "light") for kernels in KERNELS],
                    readings.sanitizer, tool="compute-sanitizer")
 
-    yield Step("bench.trees", "builds of trees by stages: 20,498 triangles and a million", 40,
+    yield Step("bench.trees", "builds of trees by stages: 20,498 triangles and a million", 35,
                [Command("mesh_knot", bvh("scenes/mesh_knot.dae", "--repeats", "20", "--json")),
                 Command("million", bvh(mesh, "--repeats", "20", "--json"))],
                readings.trees, rounds=5, prepare=[make_mesh])
-    yield Step("bench.renders", "renders of 240x160 pixels, 256 samples per pixel", 50,
+    yield Step("bench.renders", "renders of 240x160 pixels, 256 samples per pixel, by both kinds of kernels", 65,
                renders(("cornell_diffuse", "cornell_glass", "mesh_knot"), "240x160", 256), readings.render, rounds=5)
     # The report took 195 s (path) and 2,354 s (bdpt) for CBspheres_lambertian, 2,764 s (bdpt) for CBspheres. Its
     # scenes are not part of Plumbline.
     yield Step("bench.pictures", "the two pictures of the 2015 course report in size and samples (960x640, 256); "
-               "cornell_diffuse and cornell_glass stand for its Cornell boxes with spheres", 90,
+               "cornell_diffuse and cornell_glass stand for its Cornell boxes with spheres", 105,
                renders(("cornell_diffuse", "cornell_glass"), "960x640", 256), readings.render, rounds=3)
 
     def ncu(kernels, skip, count):
@@ -102,10 +104,15 @@ def all_steps(build, scratch):
                 "--kernel-name-base", "demangled", "--kernel-name", f"regex:{kernels}",
                 "--launch-skip", str(skip), "--launch-count", str(count)]
 
-    yield Step("ncu.trees", "Nsight Compute on the kernels of a build over a million triangles", 25,
+    yield Step("ncu.trees", "Nsight Compute on the kernels of a build over a million triangles", 20,
                [Command("", ncu("run_kernel|cub::", 0, 16) + bvh(mesh, "--repeats", "1"))], readings.ncu, tool="ncu",
                prepare=[make_mesh])
     for integrator in INTEGRATORS:  # the first launches are small: launches grow until they take 30 ms
-        yield Step(f"ncu.{integrator}", f"Nsight Compute on two launches of the kernel of {integrator}", 25,
-                   [Command("", ncu("RenderSamples", 8, 2) + render("cornell_glass", integrator, "960x640", 32))],
+        yield Step(f"ncu.{integrator}", f"Nsight Compute on two launches of the kernel of {integrator}, and on some of "
+                   "its stages", 30,
+                   [Command(kernels, ncu(pattern, skip, count) +
+                            render("cornell_glass", integrator, kernels, "960x640", 32))
+                    for kernels, pattern, skip, count in (
+                        ("samples", "RenderSamples", 8, 2),
+                        ("stages", "Generate|Extend|Shade|Connect|Test", 100, 12))],
                    readings.ncu, tool="ncu")

@@ -311,12 +311,13 @@ TEST(Needs, LeavingOutWhatASceneDoesNotHaveChangesNothing)
 TEST(Needs, AreRoundedUpToTheSmallestCompiledOnesThatIncludeThem)
 {
     const auto count = [](const fast::Needs& needs) {
-        return int{needs.spheres} + int{needs.specular} + int{needs.other_lights};
+        return int{needs.spheres} + int{needs.specular} + int{needs.other_lights} +
+               int{needs.coincident};
     };
     for (const bool spheres : {false, true})
         for (const bool specular : {false, true})
-            for (const bool other_lights : {false, true}) {
-                const fast::Needs needs{spheres, specular, other_lights};
+            for (const unsigned others : {0u, 1u, 2u, 3u}) {
+                const fast::Needs needs{spheres, specular, (others & 1) != 0, (others & 2) != 0};
                 const fast::Needs chosen = fast::compiled_for(needs);
                 EXPECT_EQ(chosen | needs, chosen);
                 EXPECT_NE(std::ranges::find(fast::compiled_needs, chosen), fast::compiled_needs.end());
@@ -344,6 +345,11 @@ TEST(Needs, OfARendererAreThoseThatItsKernelsAreCompiledFor)
     EXPECT_EQ(needs_of("cornell_diffuse"), (fast::Needs{true, true, false})); // spheres alone
     EXPECT_EQ(needs_of("point_over_plane"), fast::any_needs);                 // another light alone
     EXPECT_EQ(needs_of("mesh_knot", {false, true, false}), (fast::Needs{true, true, false}));
+
+    scenes::Scene doubled = our_scene("mesh_knot");
+    doubled.triangles.push_back(doubled.triangles.front()); // surfaces that coincide, alone
+    EXPECT_EQ(fast::host_renderer(doubled, width, height, short_paths(Integrator::path), 1)->needs(),
+              fast::any_needs);
 }
 
 // scenes::requirements decides which kernel is used. Black lights require nothing.

@@ -1,16 +1,12 @@
 // The stages give the same bits as the kernel for whole samples, with every instruction set and number
-// of threads, and in every order of the queues.
+// of threads. stage_launches_test.cpp is about the order in queues.
 
 #include "cuda/launch/batch_renderer.h"
 #include "cuda/launch/host_kernels.h"
-#include "cuda/stages/trace_paths.h"
-#include "cuda/stages/trace_rays.h"
-#include "tests/cuda/parallel/interleaved_executor.h"
 #include "tests/ref/transport/scene_files.h"
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <string>
 #include <vector>
 
@@ -79,46 +75,6 @@ std::vector<std::string> names_of_our_scenes()
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Staged, testing::ValuesIn(names_of_our_scenes()),
                          [](const auto& tested) { return tested.param; });
-
-/// The samples of one launch of `scene`, by the stages for one index on `executor`.
-template <class E>
-std::vector<fast::Rgb> traced_on(E& executor, const scenes::Scene& scene)
-{
-    constexpr fast::Launch launch{0, 8 * 6, 0, 2};
-    fast::HostMemory memory;
-    fast::SerialExecutor serial;
-    const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
-    const fast::SceneInMemory in_memory(memory, serial, arrays,
-                                        fast::camera_of(scene, arrays.place, 8, 6));
-    std::vector<fast::Rgb> own(launch.count(), fast::Rgb(-1.0f));
-    std::vector<fast::DroppedCount> dropped(1);
-    const fast::FilmTarget film{own, {}, {}, dropped, false, launch.pixels};
-    std::vector<std::uint32_t> words(fast::PathMemory::words_for(launch.count()));
-    fast::PathMemory paths(words, launch.count());
-    paths.trace(executor,
-                fast::StageJob<fast::any_needs>{
-                    in_memory.view<fast::any_needs>(), {7, 5, images::Heuristic::balance}, launch, film},
-                0, launch.count());
-    return own;
-}
-
-// The queues are filled by atomic counts, in an order that depends on the schedule.
-TEST(StagedPaths, DoNotDependOnTheOrderInTheirQueues)
-{
-    const scenes::Scene scene = our_scene("cornell_glass");
-    fast::SerialExecutor serial;
-    const std::vector<fast::Rgb> expected = traced_on(serial, scene);
-    for (const std::uint32_t threads : {2u, 4u}) {
-        fast::ThreadedExecutor executor(threads, 1);
-        EXPECT_EQ(traced_on(executor, scene), expected) << threads << " threads";
-    }
-    for (std::uint64_t seed = 0; seed < 5; ++seed) {
-        std::mt19937_64 schedule(seed);
-        parallel_test::InterleavedExecutor adversary(
-            6, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(schedule() % ready); });
-        EXPECT_EQ(traced_on(adversary, scene), expected) << "schedule " << seed;
-    }
-}
 
 class EveryInstructionSet : public testing::TestWithParam<images::Integrator> {};
 
