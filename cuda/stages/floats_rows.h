@@ -96,7 +96,7 @@ void push(const Queue<Record>& queue, const Mask& mask, const Record<Floats>& va
     const std::uint32_t end = *queue.count;
     for (std::size_t i = 0; i < record.size(); ++i)
         hn::StoreU(to_front(record[i]).v, word_tag, queue.rows.member(i) + end);
-    *queue.count += static_cast<std::uint32_t>(hn::CountTrue(float_tag, mask.m));
+    *queue.count = end + static_cast<std::uint32_t>(hn::CountTrue(float_tag, mask.m));
 }
 
 /// Runs stages on the calling thread, for many indices at once.

@@ -20,37 +20,6 @@ constexpr int few_rays = 5 * static_cast<int>(floats_at_once) / 8;
 /// In a tree of no more nodes all rays stay together to the end.
 constexpr std::size_t small_tree = 16;
 
-/// The test of many rays against a box: Slabs of cuda/trees/slabs.h, ray by ray.
-class SlabsOfRays {
-public:
-    explicit SlabsOfRays(const SlabRayOf<Floats>& rays) : rays_(rays)
-    {
-        for (int axis = 0; axis < 3; ++axis) descends_[axis] = rays.reciprocal[axis] < 0.0f;
-    }
-    /// Where the rays are in box c of `node` at a t from 0 to `limit`; `near`: the smallest such t.
-    [[nodiscard]] Mask entered(const WideNode& node, int c, const Floats& limit, Floats& near) const
-    {
-        near = 0.0f;
-        Floats far = limit;
-        for (int axis = 0; axis < 3; ++axis) {
-            const Floats lower(node.planes[axis][c]);
-            const Floats upper(node.planes[3 + axis][c]);
-            const Floats enter = multiply_add(select(descends_[axis], upper, lower),
-                                              rays_.reciprocal[axis], rays_.entering[axis]);
-            const Floats leave = multiply_add(select(descends_[axis], lower, upper),
-                                              rays_.reciprocal[axis], rays_.leaving[axis]);
-            // These comparisons ignore NaN.
-            near = select(enter > near, enter, near);
-            far = select(leave < far, leave, far);
-        }
-        return near <= far;
-    }
-
-private:
-    SlabRayOf<Floats> rays_;
-    Mask descends_[3];
-};
-
 /// Calls test(group, here) for every group whose box some rays of `active` enter at a t <= their limit,
 /// where `here` are these rays; or alone(node, here) for a node that few rays enter. Both may lower
 /// `limit`, and set it below 0 for rays that need no more.
@@ -68,7 +37,7 @@ void traverse_together(const WideTreeView& tree, const SlabRayOf<Floats>& rays, 
     };
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const int few = tree.nodes.size() > small_tree ? few_rays : 0;
-    const SlabsOfRays slabs(rays);
+    const SlabsOf<Floats> slabs(rays);
     std::array<Waiting, TraversalStack::most> stack;
     std::size_t height = 0;
     stack[height++] = {select(active, Floats(0.0f), Floats(infinity)), 0};
@@ -92,7 +61,7 @@ void traverse_together(const WideTreeView& tree, const SlabRayOf<Floats>& rays, 
         const std::size_t bottom = height;
         for (int c = 0; c < most_children && node.children[c] != no_node; ++c) {
             Floats near;
-            const Mask entered = slabs.entered(node, c, limit, near) && here;
+            const Mask entered = slabs.entered(node.box(c), limit, near) && here;
             if (none(entered)) continue;
             near = select(entered, near, Floats(infinity));
             const float key = lane_of(near, first_ray);

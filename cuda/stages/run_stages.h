@@ -59,7 +59,7 @@ public:
         rest_ = rest_.subspan(count);
         return taken;
     }
-    /// Rows or Queue of `capacity` records.
+    /// Rows of `capacity` records.
     template <class Records>
     Records rows(std::uint32_t capacity)
     {

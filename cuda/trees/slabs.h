@@ -69,38 +69,39 @@ private:
 };
 using SlabRay = SlabRayOf<float>;
 
-class Slabs {
+/// The test of rays against one box, ray by ray.
+template <class F>
+class SlabsOf {
 public:
-    HD explicit Slabs(const SlabRay& ray) : ray_(ray) {}
-    HD Slabs(const Ray& ray, const Aabb& root) : Slabs(SlabRay(ray, root)) {}
-    /// The smallest t >= 0 at which the ray is in the box; infinity if there is no such t <= limit.
-    [[nodiscard]] HD float entry(const Aabb& box, float limit) const
+    HD explicit SlabsOf(const SlabRayOf<F>& rays) : rays_(rays)
     {
-        float near = 0;
-        float far = limit;
-        clip(box, 0, near, far);
-        clip(box, 1, near, far);
-        clip(box, 2, near, far);
-        return near <= far ? near : std::numeric_limits<float>::infinity();
+        for (int axis = 0; axis < 3; ++axis) descends_[axis] = rays.reciprocal[axis] < 0.0f;
+    }
+    /// Where the rays are in the box at a t from 0 to `limit`; `near`: the smallest such t.
+    [[nodiscard]] HD MaskOf<F> entered(const Aabb& box, const F& limit, F& near) const
+    {
+        near = 0.0f;
+        F far = limit;
+        for (int axis = 0; axis < 3; ++axis) {
+            const F lower(box.lower[axis]);
+            const F upper(box.upper[axis]);
+            const F enter = multiply_add(select(descends_[axis], upper, lower), rays_.reciprocal[axis],
+                                         rays_.entering[axis]);
+            const F leave = multiply_add(select(descends_[axis], lower, upper), rays_.reciprocal[axis],
+                                         rays_.leaving[axis]);
+            // These comparisons ignore NaN.
+            near = select(enter > near, enter, near);
+            far = select(leave < far, leave, far);
+        }
+        return near <= far;
     }
 
 private:
-    HD void clip(const Aabb& box, int axis, float& near, float& far) const
-    {
-        const bool descends = ray_.reciprocal[axis] < 0;
-        const float enter = multiply_add((descends ? box.upper : box.lower)[axis], ray_.reciprocal[axis],
-                                         ray_.entering[axis]);
-        const float leave = multiply_add((descends ? box.lower : box.upper)[axis], ray_.reciprocal[axis],
-                                         ray_.leaving[axis]);
-        // These comparisons ignore NaN.
-        near = enter > near ? enter : near;
-        far = leave < far ? leave : far;
-    }
-
-    SlabRay ray_;
+    SlabRayOf<F> rays_;
+    MaskOf<F> descends_[3];
 };
 
-/// The same for all boxes of a wide node at once.
+/// The test of one ray against all boxes of a wide node at once.
 class WideSlabs {
 public:
     HD explicit WideSlabs(const SlabRay& ray)

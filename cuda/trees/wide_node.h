@@ -25,6 +25,12 @@ struct alignas(64) WideNode {
     Lanes planes[6];                       // lower x, y, z; upper x, y, z
     std::uint32_t children[most_children]; // a wide node by its number, a group by its number and the
                                            // highest bit
+
+    /// Of child c.
+    [[nodiscard]] HD Aabb box(int c) const
+    {
+        return {{planes[0][c], planes[1][c], planes[2][c]}, {planes[3][c], planes[4][c], planes[5][c]}};
+    }
 };
 static_assert(sizeof(WideNode) == 256);
 

@@ -14,16 +14,14 @@
 #include "cuda/stages/trace_paths.h"
 #include "cuda/stages/trace_walks.h"
 #include "scenes/read_scene.h"
+#include "tests/cuda/parallel/kernel_name.h"
 
 #include <nlohmann/json.hpp>
 
-#include <cxxabi.h>
 #include <time.h>
 
-#include <cstdlib>
 #include <iostream>
 #include <map>
-#include <memory>
 #include <string>
 #include <typeinfo>
 
@@ -45,7 +43,7 @@ struct Spent {
     double seconds = 0;
 };
 
-/// By the name of the stage's type.
+/// By the name of the stage.
 using SpentByStage = std::map<std::string, Spent>;
 
 /// Runs stages as the renderer does, and adds up their times.
@@ -56,7 +54,7 @@ public:
     template <class Stage>
     void operator()(std::uint32_t count, const Stage& stage) const
     {
-        Spent& spent = spent_[typeid(Stage).name()];
+        Spent& spent = spent_[parallel_test::kernel_name(typeid(Stage))];
         const double start = cpu_seconds();
         executor_(count, stage);
         spent.seconds += cpu_seconds() - start;
@@ -67,29 +65,6 @@ private:
     SpentByStage& spent_;
     fast::StageExecutor executor_;
 };
-
-/// The name of the class template, without arguments and namespace.
-std::string stage_name(const std::string& mangled)
-{
-    int status = 0;
-    const std::unique_ptr<char, void (*)(void*)> name(
-        abi::__cxa_demangle(mangled.c_str(), nullptr, nullptr, &status), std::free);
-    const std::string whole = name.get();
-    const std::size_t begin = std::string("fast::").size();
-    return whole.substr(begin, whole.find('<') - begin);
-}
-
-/// One entry for all stages made from the same class template.
-SpentByStage by_template(const SpentByStage& spent)
-{
-    SpentByStage sums;
-    for (const auto& [name, one] : spent) {
-        Spent& sum = sums[stage_name(name)];
-        sum.indices += one.indices;
-        sum.seconds += one.seconds;
-    }
-    return sums;
-}
 
 /// Traces all samples in blocks of `block`.
 template <class Memory, class Trace>
@@ -156,7 +131,7 @@ int main(int argc, char** argv)
                     integrator == "path" ? fast::Integrator::path : fast::Integrator::bdpt,
                     argc > 3 ? static_cast<std::uint32_t>(std::stoul(argv[3])) : 16u);
         nlohmann::json report;
-        for (const auto& [name, one] : by_template(spent))
+        for (const auto& [name, one] : spent)
             report[name] = {{"indices", one.indices}, {"seconds", one.seconds}};
         std::cout << report << '\n';
     } catch (const std::exception& error) {

@@ -8,16 +8,13 @@
 #include "tests/cuda/parallel/any_executor.h"
 #include "tests/cuda/parallel/far_memory.h"
 #include "tests/cuda/parallel/interleaved_executor.h"
+#include "tests/cuda/parallel/kernel_name.h"
 #include "tests/cuda/parallel/on_device.h"
 #include "tests/ref/transport/scene_files.h"
 
 #include <gtest/gtest.h>
 
-#include <cxxabi.h>
-
-#include <cstdlib>
 #include <map>
-#include <memory>
 #include <random>
 #include <set>
 #include <string>
@@ -104,17 +101,6 @@ Film staged_film(const scenes::Scene& scene, E& executor, const AnyExecutor::Wat
     return film_of<integrator>(scene, memory, serial, staged);
 }
 
-/// Of the class template that a kernel is: without arguments and namespace.
-std::string kernel_name(const std::type_info& kernel)
-{
-    int status = 0;
-    const std::unique_ptr<char, void (*)(void*)> name(
-        abi::__cxa_demangle(kernel.name(), nullptr, nullptr, &status), std::free);
-    const std::string whole = name.get();
-    const std::size_t begin = std::string("fast::").size();
-    return whole.substr(begin, whole.find('<') - begin);
-}
-
 template <Integrator integrator>
 void expect_whole_samples(const scenes::Scene& scene)
 {
@@ -143,14 +129,7 @@ TEST_P(StageLaunches, HaveTheBitsOfWholeSamples)
     expect_whole_samples<Integrator::light>(scene);
 }
 
-std::vector<std::string> names_of_all_scenes()
-{
-    std::vector<std::string> names;
-    for (const auto& file : transport_test::our_scene_files()) names.push_back(file.stem());
-    return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, StageLaunches, testing::ValuesIn(names_of_all_scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, StageLaunches, testing::ValuesIn(transport_test::our_scene_names()),
                          [](const auto& tested) { return tested.param; });
 
 /// The launches of one film, by the name of their stage. `idle`: those without an index.
@@ -165,7 +144,7 @@ Launches launches_of(const scenes::Scene& scene)
     Launches found;
     fast::SerialExecutor serial;
     staged_film<integrator>(scene, serial, [&](const std::type_info& kernel, std::uint32_t count) {
-        const std::string name = kernel_name(kernel);
+        const std::string name = parallel_test::kernel_name(kernel);
         if (name == "Clear") return;
         ++found.of_stages[name];
         if (count == 0) ++found.idle;
@@ -260,7 +239,7 @@ class StagesOnDevice : public parallel_test::OnDevice {};
 
 TEST_F(StagesOnDevice, HaveTheBitsOfWholeSamples)
 {
-    for (const std::string& name : names_of_all_scenes()) {
+    for (const std::string& name : transport_test::our_scene_names()) {
         const scenes::Scene scene = our_scene(name);
         for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
             const auto batch_by = [&](fast::DeviceKernels kernels) {

@@ -66,14 +66,7 @@ TEST_P(Staged, SamplesHaveTheBitsOfWholeSamples)
         }
 }
 
-std::vector<std::string> names_of_our_scenes()
-{
-    std::vector<std::string> names;
-    for (const auto& file : transport_test::our_scene_files()) names.push_back(file.stem());
-    return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, Staged, testing::ValuesIn(names_of_our_scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, Staged, testing::ValuesIn(transport_test::our_scene_names()),
                          [](const auto& tested) { return tested.param; });
 
 class EveryInstructionSet : public testing::TestWithParam<images::Integrator> {};

@@ -39,8 +39,8 @@ HD void traverse(const TreeView& tree, const fast::Ray& ray, const Test& test, c
         if (!tree.primitives.empty()) test(0);
         return;
     }
-    const fast::Slabs slabs(ray, unite(tree.nodes[0].bounds[0], tree.nodes[0].bounds[1]));
-    constexpr float never = std::numeric_limits<float>::infinity();
+    const fast::Aabb root = unite(tree.nodes[0].bounds[0], tree.nodes[0].bounds[1]);
+    const fast::SlabsOf<float> slabs(fast::SlabRay(ray, root));
     float limit = ray.t_max;
     fast::TraversalStack stack;
     std::uint32_t next = 0;
@@ -51,10 +51,12 @@ HD void traverse(const TreeView& tree, const fast::Ray& ray, const Test& test, c
         }
         count();
         const fast::Node& node = tree.nodes[next];
-        const float entry[2] = {slabs.entry(node.bounds[0], limit), slabs.entry(node.bounds[1], limit)};
+        float entry[2];
+        const bool entered[2] = {slabs.entered(node.bounds[0], limit, entry[0]),
+                                 slabs.entered(node.bounds[1], limit, entry[1])};
         const int nearer = entry[1] < entry[0] ? 1 : 0;
         for (const int side : {1 - nearer, nearer})
-            if (entry[side] < never)
+            if (entered[side])
                 stack.push(fast::TraversalStack::element(node.children[side], entry[side]));
     } while (stack.pop(limit, next));
 }

@@ -94,7 +94,9 @@ RC_GTEST_PROP(WideSlabs, EnterEveryBoxThatTheRayPassesThroughAndNoneThatIsAbsent
             RC_ASSERT((entered >> c & 1) == 1u);
             // A hit at the entry is not excluded by its own t.
             RC_ASSERT(near[c] <= std::nextafter(static_cast<float>(*expected), infinity));
-            RC_ASSERT(fast::Slabs(slab_ray).entry(in.boxes[c], infinity) == near[c]);
+            float alone = 0;
+            RC_ASSERT(fast::SlabsOf<float>(slab_ray).entered(in.boxes[c], infinity, alone));
+            RC_ASSERT(alone == near[c]);
         }
     }
 }

@@ -30,6 +30,14 @@ inline std::vector<std::filesystem::path> our_scene_files()
     return files;
 }
 
+/// Their names without extension, for our_scene.
+inline std::vector<std::string> our_scene_names()
+{
+    std::vector<std::string> names;
+    for (const std::filesystem::path& file : our_scene_files()) names.push_back(file.stem());
+    return names;
+}
+
 /// A file of the shared folder: beside the repository, or in PLUMBLINE_SHARED. It may be absent; a
 /// test that needs it is then skipped.
 inline std::filesystem::path shared_file(const std::string& name)
