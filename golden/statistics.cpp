@@ -186,6 +186,34 @@ Moments moments(std::span<const double> values)
     return result;
 }
 
+Moments pooled(std::span<const Moments> samples)
+{
+    Moments result;
+    double sum = 0.0;
+    for (const Moments& sample : samples) {
+        result.count += sample.count;
+        sum += sample.count * sample.mean;
+    }
+    if (result.count == 0.0) return result;
+    result.mean = sum / result.count;
+    double squares = 0.0; // sums of (value - mean)^2 and (value - mean)^3 about the common mean
+    double cubes = 0.0;
+    for (const Moments& sample : samples) {
+        const double n = sample.count;
+        const double d = sample.mean - result.mean;
+        const double own_squares = sample.variance * std::max(0.0, n - 1.0);
+        const double second = n > 0.0 ? own_squares / n : 0.0;
+        const double own_cubes = sample.skewness * second * std::sqrt(second) * n;
+        squares += own_squares + n * d * d;
+        cubes += own_cubes + 3.0 * d * own_squares + n * d * d * d;
+    }
+    if (result.count > 1.0) result.variance = squares / (result.count - 1.0);
+    const double second = squares / result.count;
+    const double cubed = second * std::sqrt(second);
+    if (cubed > 0.0) result.skewness = cubes / result.count / cubed;
+    return result;
+}
+
 double one_sided(const TestResult& test, double direction)
 {
     if (test.z == 0.0) return 1.0;

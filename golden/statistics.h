@@ -17,6 +17,10 @@ struct Moments {
 
 Moments moments(std::span<const double> values);
 
+/// The moments of all values of several samples together, from those of each [Chan et al. 1983; Pebay
+/// 2008]: equal to `moments` of the joined samples to within rounding.
+Moments pooled(std::span<const Moments> samples);
+
 /// A two-sided test. z is the standardised effect: positive where the first sample is the larger one.
 struct TestResult {
     double z = 0.0;

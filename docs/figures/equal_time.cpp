@@ -4,7 +4,7 @@
 //
 // Usage: figure_equal_time --help. 96 x 64 pixels, at most 6 edges, one thread.
 
-#include "cli/rounds.h"
+#include "trade/rounds.h"
 #include "docs/figures/measure.h"
 #include "docs/figures/program.h"
 #include "images/film.h"
@@ -132,7 +132,7 @@ Rounds measure(const scenes::Scene& scene, const figures::RoundOptions& options,
     const images::Image reference =
         render_for(world, ref::trace_bidirectionally, options.seed, options.reference_seconds).image;
     Rounds values;
-    std::vector<cli::Measurement> measurements;
+    std::vector<trade::Measurement> measurements;
     // No two pictures share their random numbers.
     const auto seed_of = [&](std::size_t round, std::size_t i) {
         return options.seed + 1 + round * (methods.size() + 1) + i;
@@ -150,16 +150,16 @@ Rounds measure(const scenes::Scene& scene, const figures::RoundOptions& options,
         for (std::size_t i = 0; i < shares.size(); ++i) values.shares[i].push_back(shares[i]);
         return 0.0;
     });
-    const auto errors = cli::measure_in_rounds(options.rounds, random, measurements);
+    const auto errors = trade::measure_in_rounds(options.rounds, random, measurements);
     std::copy_n(errors.begin(), methods.size(), values.errors.begin());
     return values;
 }
 
 /// The method with less error, if the interval of the quotient of errors excludes 1.
-std::string verdict(const cli::Ratio& path_over_bdpt)
+std::string verdict(const trade::Estimate& path_over_bdpt)
 {
     if (!path_over_bdpt.decided()) return "not decided";
-    return path_over_bdpt.ratio > 1.0 ? "bdpt" : "path";
+    return path_over_bdpt.value > 1.0 ? "bdpt" : "path";
 }
 
 void print_scene(const scenes::Scene& scene, const Rounds& values)
@@ -170,15 +170,15 @@ void print_scene(const scenes::Scene& scene, const Rounds& values)
         for (const double rate : values.rates[i]) thousands.push_back(rate / 1e3);
         const bool blind =
             methods[i].integrator == ref::trace_light && !light_tracing_sees_everything(scene);
-        std::printf(" %s | %s%s |", to_text(cli::mean_of_rounds(thousands)).c_str(),
-                    to_text(cli::mean_of_rounds(values.errors[i])).c_str(), blind ? " *" : "");
+        std::printf(" %s | %s%s |", to_text(trade::mean_of_rounds(thousands)).c_str(),
+                    to_text(trade::mean_of_rounds(values.errors[i])).c_str(), blind ? " *" : "");
     }
-    const cli::Ratio ratio = cli::ratio_of_rounds(values.errors[0], values.errors[1]);
+    const trade::Estimate ratio = trade::ratio_of_rounds(values.errors[0], values.errors[1]);
     std::printf(" %s | %s |", to_text(ratio).c_str(), verdict(ratio).c_str());
     for (const std::vector<double>& shares : values.shares) {
         std::vector<double> percent;
         for (const double share : shares) percent.push_back(100.0 * share);
-        std::printf(" %s |", to_text(cli::mean_of_rounds(percent)).c_str());
+        std::printf(" %s |", to_text(trade::mean_of_rounds(percent)).c_str());
     }
     std::printf("\n");
     std::fflush(stdout);

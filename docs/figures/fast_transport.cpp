@@ -4,7 +4,7 @@
 //
 // Usage: figure_fast_transport --help. 240 x 160 pixels, at most 6 edges.
 
-#include "cli/rounds.h"
+#include "trade/rounds.h"
 #include "cuda/launch/renderer.h"
 #include "docs/figures/measure.h"
 #include "docs/figures/program.h"
@@ -78,7 +78,7 @@ std::string rates_text(const std::vector<double>& rates)
 {
     std::vector<double> thousands;
     for (const double rate : rates) thousands.push_back(rate / 1e3);
-    return to_text(cli::mean_of_rounds(thousands));
+    return to_text(trade::mean_of_rounds(thousands));
 }
 
 /// Path tracing, then bidirectional path tracing.
@@ -92,7 +92,7 @@ void compare(const scenes::Scene& scene, const figures::RoundOptions& options, s
     const images::Image truth =
         fast(scene, fast::Integrator::bdpt, 1, options.reference_seconds, options.seed).image;
     std::array<std::vector<double>, 2> efficiencies; // 1 / (relMSE s)
-    std::vector<cli::Measurement> measurements;      // for each integrator: fast, reference, two threads
+    std::vector<trade::Measurement> measurements;      // for each integrator: fast, reference, two threads
     const auto seed_of = [&](std::size_t round) { return options.seed + 1 + round; };
     for (std::size_t i = 0; i < integrators.size(); ++i) {
         measurements.emplace_back([&, i](std::size_t round) {
@@ -109,7 +109,7 @@ void compare(const scenes::Scene& scene, const figures::RoundOptions& options, s
             return fast(scene, integrators[i], 2, options.seconds, seed_of(round)).samples_per_second;
         });
     }
-    const auto rates = cli::measure_in_rounds(options.rounds, random, measurements);
+    const auto rates = trade::measure_in_rounds(options.rounds, random, measurements);
 
     std::printf("| %s |", scene.name.c_str());
     for (std::size_t i = 0; i < integrators.size(); ++i) {
@@ -117,13 +117,13 @@ void compare(const scenes::Scene& scene, const figures::RoundOptions& options, s
         const std::vector<double>& reference = rates[3 * i + 1];
         const std::vector<double>& two = rates[3 * i + 2];
         std::printf(" %s | %s | %s | %s | %s |", rates_text(one).c_str(), rates_text(reference).c_str(),
-                    to_text(cli::ratio_of_rounds(one, reference)).c_str(),
-                    to_text(cli::ratio_of_rounds(two, one)).c_str(),
-                    to_text(cli::mean_of_rounds(efficiencies[i])).c_str());
+                    to_text(trade::ratio_of_rounds(one, reference)).c_str(),
+                    to_text(trade::ratio_of_rounds(two, one)).c_str(),
+                    to_text(trade::mean_of_rounds(efficiencies[i])).c_str());
     }
-    const cli::Ratio gain = cli::ratio_of_rounds(efficiencies[1], efficiencies[0]);
+    const trade::Estimate gain = trade::ratio_of_rounds(efficiencies[1], efficiencies[0]);
     std::printf(" %s | %s |\n", to_text(gain).c_str(),
-                !gain.decided() ? "not decided" : names[gain.ratio > 1.0 ? 1 : 0]);
+                !gain.decided() ? "not decided" : names[gain.value > 1.0 ? 1 : 0]);
     std::fflush(stdout);
 }
 
@@ -132,16 +132,16 @@ void measure_needs(const scenes::Scene& scene, const figures::RoundOptions& opti
                    std::mt19937_64& random)
 {
     for (std::size_t i = 0; i < integrators.size(); ++i) {
-        std::vector<cli::Measurement> measurements;
+        std::vector<trade::Measurement> measurements;
         for (const fast::Needs& needs : fast::compiled_needs)
             measurements.emplace_back([&, i, needs](std::size_t round) {
                 return fast(scene, integrators[i], 1, options.seconds, options.seed + 1 + round, needs)
                     .samples_per_second;
             });
-        const auto rates = cli::measure_in_rounds(options.rounds, random, measurements);
+        const auto rates = trade::measure_in_rounds(options.rounds, random, measurements);
         std::printf("| %s | %s | %s |", scene.name.c_str(), names[i], rates_text(rates[0]).c_str());
         for (std::size_t j = 1; j < fast::compiled_needs.size(); ++j)
-            std::printf(" %s |", to_text(cli::ratio_of_rounds(rates[j], rates[0])).c_str());
+            std::printf(" %s |", to_text(trade::ratio_of_rounds(rates[j], rates[0])).c_str());
         std::printf("\n");
         std::fflush(stdout);
     }

@@ -74,6 +74,27 @@ TEST(Moments, AreThoseOfTheTextbook)
     EXPECT_DOUBLE_EQ(m.skewness, 0.5 / std::sqrt(0.1875));
 }
 
+RC_GTEST_PROP(Moments, OfPooledSamplesAreThoseOfAllValues, ())
+{
+    const auto samples = *rc::gen::container<std::vector<std::vector<int>>>(
+        rc::gen::container<std::vector<int>>(rc::gen::inRange(-1000, 1001)));
+    Values all;
+    std::vector<golden::Moments> each;
+    for (const std::vector<int>& sample : samples) {
+        const Values values(sample.begin(), sample.end());
+        all.insert(all.end(), values.begin(), values.end());
+        each.push_back(golden::moments(values));
+    }
+    const golden::Moments expected = golden::moments(all);
+    const golden::Moments found = golden::pooled(each);
+    // Sums of at most 1e4 terms of at most 8e9 each, relative to moments of at least order 1.
+    const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-8 * (1.0 + std::abs(a)); };
+    RC_ASSERT(found.count == expected.count);
+    RC_ASSERT(near(expected.mean, found.mean));
+    RC_ASSERT(near(expected.variance, found.variance));
+    RC_ASSERT(near(expected.skewness, found.skewness));
+}
+
 TEST(Moments, OfNothingOneValueOrEqualValuesAreFinite)
 {
     EXPECT_EQ(golden::moments({}).mean, 0.0);

@@ -4,13 +4,15 @@
 // that is drawn anew, so that changes of the load affect all of them equally. The scatter of the rounds
 // gives the error.
 
+#include "trade/estimate.h"
+
 #include <cstddef>
 #include <functional>
 #include <random>
 #include <string>
 #include <vector>
 
-namespace cli {
+namespace trade {
 
 /// A mean with the half width of its 95% interval.
 struct Measured {
@@ -22,17 +24,14 @@ struct Measured {
 /// roughly normally distributed. Throws std::invalid_argument for fewer than two rounds.
 Measured mean_of_rounds(const std::vector<double>& rounds);
 
-/// The ratio of two quantities, with its 95% interval.
-struct Ratio {
-    double ratio, low, high;
-    /// Whether the interval leaves out 1: only then one of the two is larger.
-    [[nodiscard]] bool decided() const { return low > 1.0 || high < 1.0; }
-};
-
 /// The geometric mean of a[i] / b[i] over the rounds i, and Student's interval of its logarithm: a
 /// factor that is common to a round cancels. Throws std::invalid_argument for fewer than two rounds,
 /// for values that are not positive, and for `a` and `b` of different lengths.
-Ratio ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b);
+Estimate ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b);
+
+/// The geometric mean of one positive value per round, and Student's interval of its logarithm: for
+/// times, whose scatter is relative. Throws as ratio_of_rounds.
+Estimate geometric_mean_of_rounds(const std::vector<double>& rounds);
 
 /// Does the work of one round, of the given number, and returns the measured value.
 using Measurement = std::function<double(std::size_t round)>;
@@ -46,6 +45,6 @@ std::vector<std::vector<double>> measure_in_rounds(std::size_t rounds, std::mt19
 std::string to_text(const Measured& measured);
 
 /// "1.73 (1.60 to 1.88)", three digits each.
-std::string to_text(const Ratio& ratio);
+std::string to_text(const Estimate& estimate);
 
-} // namespace cli
+} // namespace trade

@@ -1,6 +1,6 @@
 // Means, ratios and intervals over rounds, and the order of the measurements in a round.
 
-#include "cli/rounds.h"
+#include "trade/rounds.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 namespace {
 
-using namespace cli;
+using namespace trade;
 
 // Student's t for two degrees of freedom at 97.5% is 4.302653, for one 12.706205.
 TEST(Rounds, MeansHaveStudentsInterval)
@@ -44,8 +44,8 @@ TEST(Rounds, IntervalsHoldTheTruthNineteenTimesOfTwenty)
 // If the machine is slower by any factor during a whole round, the ratio does not change.
 TEST(Rounds, WhatSlowsAWholeRoundCancelsInTheRatio)
 {
-    const Ratio ratio = ratio_of_rounds({2.0, 20.0, 0.2}, {1.0, 10.0, 0.1});
-    EXPECT_NEAR(ratio.ratio, 2.0, 1e-12);
+    const Estimate ratio = ratio_of_rounds({2.0, 20.0, 0.2}, {1.0, 10.0, 0.1});
+    EXPECT_NEAR(ratio.value, 2.0, 1e-12);
     EXPECT_NEAR(ratio.low, 2.0, 1e-12);
     EXPECT_NEAR(ratio.high, 2.0, 1e-12);
     EXPECT_TRUE(ratio.decided());
@@ -54,14 +54,14 @@ TEST(Rounds, WhatSlowsAWholeRoundCancelsInTheRatio)
 TEST(Rounds, ARatioIsDecidedOnlyIfItsIntervalLeavesOutOne)
 {
     const double half = 12.706205 * std::log(2.0); // of logarithms 0 and 2 log 2, with mean log 2
-    const Ratio open = ratio_of_rounds({1.0, 4.0}, {1.0, 1.0});
-    EXPECT_NEAR(open.ratio, 2.0, 1e-12);
-    EXPECT_NEAR(std::log(open.high / open.ratio), half, 1e-6);
-    EXPECT_NEAR(std::log(open.ratio / open.low), half, 1e-6);
+    const Estimate open = ratio_of_rounds({1.0, 4.0}, {1.0, 1.0});
+    EXPECT_NEAR(open.value, 2.0, 1e-12);
+    EXPECT_NEAR(std::log(open.high / open.value), half, 1e-6);
+    EXPECT_NEAR(std::log(open.value / open.low), half, 1e-6);
     EXPECT_FALSE(open.decided());
-    EXPECT_TRUE((Ratio{0.5, 0.4, 0.9}.decided()));
-    EXPECT_TRUE((Ratio{2.0, 1.1, 3.0}.decided()));
-    EXPECT_FALSE((Ratio{2.0, 0.9, 3.0}.decided()));
+    EXPECT_TRUE((Estimate{0.5, 0.4, 0.9}.decided()));
+    EXPECT_TRUE((Estimate{2.0, 1.1, 3.0}.decided()));
+    EXPECT_FALSE((Estimate{2.0, 0.9, 3.0}.decided()));
     EXPECT_THROW(ratio_of_rounds({1.0, 0.0}, {1.0, 1.0}), std::invalid_argument);
     EXPECT_THROW(ratio_of_rounds({1.0, 1.0}, {1.0, NAN}), std::invalid_argument);
     EXPECT_THROW(ratio_of_rounds({1.0, 1.0}, {1.0, 1.0, 1.0}), std::invalid_argument);
@@ -97,7 +97,7 @@ TEST(Rounds, AreWrittenAsExactlyAsTheyAreKnown)
     EXPECT_EQ(to_text(Measured{315.2, 12.3}), "315 +- 12");
     EXPECT_EQ(to_text(Measured{31523.0, 1234.0}), "31523 +- 1234");
     EXPECT_EQ(to_text(Measured{2.0, 0.0}), "2.000 +- 0.000");
-    EXPECT_EQ(to_text(Ratio{1.7345, 1.6, 1.88123}), "1.73 (1.6 to 1.88)");
+    EXPECT_EQ(to_text(Estimate{1.7345, 1.6, 1.88123}), "1.73 (1.6 to 1.88)");
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "cli/rounds.h"
+#include "trade/rounds.h"
 
 #include "golden/statistics.h"
 
@@ -11,7 +11,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace cli {
+namespace trade {
 
 Measured mean_of_rounds(const std::vector<double>& rounds)
 {
@@ -22,7 +22,7 @@ Measured mean_of_rounds(const std::vector<double>& rounds)
     return {moments.mean, quantile * std::sqrt(moments.variance / moments.count)};
 }
 
-Ratio ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b)
+Estimate ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b)
 {
     if (a.size() != b.size()) throw std::invalid_argument("a ratio needs values of the same rounds");
     std::vector<double> logarithms;
@@ -32,6 +32,11 @@ Ratio ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b
     }
     const auto [mean, half_width] = mean_of_rounds(logarithms);
     return {std::exp(mean), std::exp(mean - half_width), std::exp(mean + half_width)};
+}
+
+Estimate geometric_mean_of_rounds(const std::vector<double>& rounds)
+{
+    return ratio_of_rounds(rounds, std::vector<double>(rounds.size(), 1.0));
 }
 
 std::vector<std::vector<double>> measure_in_rounds(std::size_t rounds, std::mt19937_64& random,
@@ -59,11 +64,12 @@ std::string to_text(const Measured& measured)
     return text.data();
 }
 
-std::string to_text(const Ratio& ratio)
+std::string to_text(const Estimate& estimate)
 {
     std::array<char, 128> text{};
-    std::snprintf(text.data(), text.size(), "%.3g (%.3g to %.3g)", ratio.ratio, ratio.low, ratio.high);
+    std::snprintf(text.data(), text.size(), "%.3g (%.3g to %.3g)", estimate.value, estimate.low,
+                  estimate.high);
     return text.data();
 }
 
-} // namespace cli
+} // namespace trade
