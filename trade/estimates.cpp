@@ -2,6 +2,7 @@
 
 #include "trade/rounds.h"
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
@@ -19,6 +20,13 @@ double student_quantile(double degrees, double confidence)
     if (std::isinf(degrees)) degrees = 1e12;
     return boost::math::quantile(
         boost::math::complement(boost::math::students_t(degrees), (1.0 - confidence) / 2.0));
+}
+
+/// By which factor a standard deviation may exceed its estimate, with a chance of 5%.
+double largest_deviation(double degrees)
+{
+    if (std::isinf(degrees)) return 1.0;
+    return std::sqrt(degrees / boost::math::quantile(boost::math::chi_squared(degrees), 0.05));
 }
 
 template <class Value>
@@ -154,10 +162,10 @@ Bias bias_of(const std::vector<Round>& rounds, const Truth& truth, const Levels&
         bias.worst = relative_error(tests[worst], 1.0 - (1.0 - levels.confidence) /
                                                             static_cast<double>(tests.size() - 1));
     }
+    const double degrees = golden::welch_degrees(tests[0].found, tests[0].expected);
     const double error = std::sqrt(tests[0].found.variance + tests[0].expected.variance);
     bias.detectable =
-        golden::detectable_difference(error, golden::welch_degrees(tests[0].found, tests[0].expected),
-                                      level, levels.power) /
+        golden::detectable_difference(error * largest_deviation(degrees), degrees, level, levels.power) /
         tests[0].expected.mean;
 
     std::size_t marked = tests.size();

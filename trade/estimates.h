@@ -33,8 +33,10 @@ struct Bias {
     Estimate whole; // of the picture: 0.01 is one percent too bright
     Estimate worst; // of the stratum with the strongest evidence, for all strata at once
     std::string worst_region;
-    double detectable = 0.0; // relative error of the whole that is found with probability `power`
-    std::string reason;      // one sentence
+    /// The relative error of the whole that is found with probability `power`, even if the noise is as
+    /// much larger than measured as one time in twenty.
+    double detectable = 0.0;
+    std::string reason; // one sentence
 };
 
 struct Times {

@@ -108,7 +108,7 @@ TEST(TradeBias, IsMarkedWithTheStatedPowerAndRightPicturesAreNot)
     Machine machine{std::mt19937_64(3)};
     Tally tally;
     for (int trial = 0; trial < trials; ++trial) {
-        const trade::Truth truth = simulated_truth(machine, 256);
+        const trade::Truth truth = simulated_truth(machine, 1024);
         const trade::Levels levels;
         const auto right = measured({{}}, rounds, plan, truth, machine);
         const trade::Bias of_right = trade::estimate(right[0], truth, levels).bias;
@@ -125,7 +125,7 @@ TEST(TradeBias, IsMarkedWithTheStatedPowerAndRightPicturesAreNot)
     }
     EXPECT_LT(tally.rate("right is marked"), 0.01);
     EXPECT_GT(tally.rate("right is decided"), 0.98);
-    EXPECT_GT(tally.rate("wrong is marked"), 0.98); // power 0.99, less four standard deviations
+    EXPECT_GT(tally.rate("wrong is marked"), 0.99);
     EXPECT_GT(tally.rate("half a percent is marked"), 0.98);
 }
 
