@@ -2,6 +2,7 @@
 #include "golden/reason.h"
 #include "golden/report_page.h" // page_template, made from report_page.html
 #include "images/atomic_file.h"
+#include "images/base64.h"
 #include "images/flip.h"
 #include "images/png.h"
 #include "images/strategy_sheet.h"
@@ -21,27 +22,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string base64(std::string_view bytes) // [RFC 4648, sec. 4]
-{
-    static constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63U] : '=';
-    }
-    return text;
-}
-
 std::string base64_floats(const std::vector<float>& values)
 {
     std::string bytes(values.size() * sizeof(float), '\0');
     std::memcpy(bytes.data(), values.data(), bytes.size());
-    return base64(bytes);
+    return images::base64(bytes);
 }
 
 std::string base64_of(const images::Image& image)
@@ -197,7 +182,7 @@ std::string sheet_of(const images::Layers& layers)
             strategies.emplace(std::pair(s, t), image);
     }
     if (strategies.empty()) return {};
-    return "data:image/png;base64," + base64(images::encode_png(images::strategy_sheet(strategies)));
+    return "data:image/png;base64," + images::base64(images::encode_png(images::strategy_sheet(strategies)));
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace trade {
 
@@ -23,5 +24,15 @@ struct Estimate {
     /// Whether the interval leaves out 1: only then one of the two sides of a ratio is larger.
     [[nodiscard]] bool decided() const { return low > 1.0 || high < 1.0; }
 };
+
+/// "1.73 (1.60 to 1.88)", three digits each; "unknown" if it is not stated.
+std::string to_text(const Estimate& estimate);
+
+/// A relative error in percent: "-63.2% (-63.4% to -63.0%)", the interval with two digits; "unknown" if
+/// it is not stated.
+std::string error_to_text(const Estimate& estimate);
+
+/// "3.2%", two digits.
+std::string percent_to_text(double relative);
 
 } // namespace trade

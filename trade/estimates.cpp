@@ -6,9 +6,7 @@
 #include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 namespace trade {
@@ -104,13 +102,6 @@ Estimate product(const golden::Moments& noise, const std::vector<double>& second
     return {value, value / factor, value * factor};
 }
 
-std::string percent(double relative)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.2g%%", 100.0 * relative);
-    return text.data();
-}
-
 /// The test of one region.
 struct RegionTest {
     bool conclusive;
@@ -176,12 +167,13 @@ Bias bias_of(const std::vector<Round>& rounds, const Truth& truth, const Levels&
     if (marked < tests.size()) {
         bias.verdict = BiasVerdict::biased;
         bias.reason = regions[marked].name + " has an error of " +
-                      percent(tests[marked].found.mean / tests[marked].expected.mean - 1.0);
+                      percent_to_text(tests[marked].found.mean / tests[marked].expected.mean - 1.0);
     } else if (!tests[0].conclusive) {
         bias.reason = "the noise of the whole picture is too skewed for a test";
     } else {
         bias.verdict = BiasVerdict::none_found;
-        bias.reason = "an error of " + percent(bias.detectable) + " of the whole would have been found";
+        bias.reason =
+            "an error of " + percent_to_text(bias.detectable) + " of the whole would have been found";
     }
     return bias;
 }

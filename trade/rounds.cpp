@@ -64,12 +64,4 @@ std::string to_text(const Measured& measured)
     return text.data();
 }
 
-std::string to_text(const Estimate& estimate)
-{
-    std::array<char, 128> text{};
-    std::snprintf(text.data(), text.size(), "%.3g (%.3g to %.3g)", estimate.value, estimate.low,
-                  estimate.high);
-    return text.data();
-}
-
 } // namespace trade

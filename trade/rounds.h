@@ -44,7 +44,4 @@ std::vector<std::vector<double>> measure_in_rounds(std::size_t rounds, std::mt19
 /// "0.0263 +- 0.0005": the interval with two digits, the mean as exactly.
 std::string to_text(const Measured& measured);
 
-/// "1.73 (1.60 to 1.88)", three digits each.
-std::string to_text(const Estimate& estimate);
-
 } // namespace trade

@@ -41,18 +41,6 @@ constexpr int trials = 2000;
 constexpr std::size_t rounds = 8;
 const trade::Plan plan{8, 12};
 
-/// The relMSE of a relative error of 1 everywhere.
-double relative_square(const trade::Truth& truth)
-{
-    double sum = 0.0;
-    for (std::size_t i = 0; i < side * side; ++i)
-        for (int c = 0; c < 3; ++c) {
-            const double t = true_pixel(i)[c];
-            sum += truth.weights().pixels[i][c] * t * t / (3.0 * side * side);
-        }
-    return sum;
-}
-
 // 2,000 trials have a standard deviation of 0.5% at a rate of 95%: 93% to 97% is four of them.
 TEST(TradeIntervals, HoldTheTruthNineteenTimesOfTwenty)
 {

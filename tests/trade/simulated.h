@@ -97,6 +97,18 @@ inline trade::Truth simulated_truth(Machine& machine, std::uint32_t samples)
     return trade::Truth(maker.golden({}));
 }
 
+/// The relMSE of a relative error of 1 everywhere.
+inline double relative_square(const trade::Truth& truth)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < side * side; ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double t = true_pixel(i)[c];
+            sum += truth.weights().pixels[i][c] * t * t / (3.0 * side * side);
+        }
+    return sum;
+}
+
 /// Measures each configuration in every round.
 inline std::vector<std::vector<trade::Round>> measured(const std::vector<Simulated>& what,
                                                        std::size_t rounds, const trade::Plan& plan,

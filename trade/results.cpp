@@ -1,0 +1,208 @@
+#include "trade/results.h"
+
+#include "images/base64.h"
+#include "trade/estimates.h"
+#include "trade/front.h"
+#include "trade/resume.h"
+#include "trade/sentence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace trade {
+
+namespace {
+
+constexpr double longest_limit = 100.0; // of the front, in seconds
+
+Json number(double value)
+{
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json json_of(const Estimate& estimate)
+{
+    return {{"value", number(estimate.value)},
+            {"low", number(estimate.low)},
+            {"high", number(estimate.high)}};
+}
+
+Json json_of(const Times& times)
+{
+    return {{"wall", json_of(times.wall)}, {"cpu", json_of(times.cpu)}};
+}
+
+Json json_of(const Bias& bias)
+{
+    return {{"verdict", describe(bias.verdict)},     {"whole", json_of(bias.whole)},
+            {"worst", json_of(bias.worst)},          {"worst_region", bias.worst_region},
+            {"detectable", number(bias.detectable)}, {"reason", bias.reason}};
+}
+
+/// Mean and range.
+Json range_of(const std::vector<double>& values)
+{
+    if (values.empty()) return nullptr;
+    const auto [low, high] = std::ranges::minmax(values);
+    return json_of(
+        Estimate{std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()),
+                 low, high});
+}
+
+/// The first knob of a configuration, and its value there.
+struct Place {
+    const Knob* knob = nullptr;
+    std::string value;
+};
+
+Place place_of(std::size_t configuration, const std::vector<Knob>& knobs)
+{
+    for (const Knob& knob : knobs)
+        for (const Knob::Value& value : knob.values)
+            if (value.configuration == configuration) return {&knob, value.text};
+    return {};
+}
+
+/// The half of the width of an interval of a ratio, relative to it.
+double half_width(const Estimate& ratio)
+{
+    return std::sqrt(ratio.high / ratio.low) - 1.0;
+}
+
+/// How precise ratios of times are on this machine: the median over the configurations.
+Json noise_of_machine(const std::vector<Measurements>& measured, double precision)
+{
+    std::vector<double> widths;
+    for (std::size_t i = 1; i < measured.size(); ++i)
+        if (const Estimate ratio = speed(measured[i].rounds, measured[0].rounds); ratio.stated())
+            widths.push_back(half_width(ratio));
+    if (widths.empty()) return nullptr;
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::ranges::nth_element(widths, middle);
+    const bool noisy = *middle > precision;
+    return {{"half_width", *middle},
+            {"stated", precision},
+            {"sentence",
+             noisy ? "The machine was too noisy for the precision asked for: the median "
+                     "half width of a ratio of times is " +
+                         percent_to_text(*middle) + ", not " + percent_to_text(precision) +
+                         ". More --seconds or a quieter machine helps."
+                   : "The median half width of a ratio of times is " + percent_to_text(*middle) + "."}};
+}
+
+} // namespace
+
+Json results(const Description& description, const StudyOptions& options,
+             const std::vector<Configuration>& configurations, const std::vector<Knob>& knobs,
+             const Truth& truth, const std::vector<Measurements>& measured)
+{
+    Levels levels;
+    levels.configurations = configurations.size();
+    std::vector<std::optional<Estimates>> estimates;
+    std::vector<Curve> curves;
+    std::vector<std::size_t> with_curve; // configuration of each curve
+    for (std::size_t i = 0; i < configurations.size(); ++i) {
+        estimates.emplace_back();
+        if (!measured[i].problem.empty() || measured[i].rounds.size() < 2) continue;
+        estimates[i] = estimate(measured[i].rounds, truth, levels);
+        curves.push_back(curve_of(measured[i].rounds, estimates[i]->floor));
+        with_curve.push_back(i);
+    }
+    const Front front = front_of(curves, longest_limit);
+    std::vector<bool> on_front(configurations.size(), false);
+    for (std::size_t c = 0; c < curves.size(); ++c) on_front[with_curve[c]] = front.member[c];
+
+    Json json = {
+        {"format", results_format},
+        {"program", description.program},
+        {"command", description.command},
+        {"date", description.date},
+        {"machine", {{"processor", description.processor}, {"threads", description.threads}}},
+        {"scene", {{"name", description.scene}, {"hash", description.scene_hash}}},
+        {"width", truth.mean().width},
+        {"height", truth.mean().height},
+        {"seconds", options.seconds},
+        {"rounds", options.rounds},
+        {"seed", options.seed},
+        {"complete", description.complete},
+        {"confidence", levels.confidence},
+        {"false_mark", levels.false_mark},
+        {"identity", identity(description, options, truth)},
+        {"truth",
+         {{"source", description.truth},
+          {"samples", description.truth_samples},
+          {"relmse", truth.own_error()},
+          {"whole_error", std::sqrt(truth.regions()[0].truth.variance / truth.regions()[0].truth.count) /
+                              truth.regions()[0].truth.mean}}},
+        {"noise_of_machine", noise_of_machine(measured, description.precision)},
+        {"knobs", Json::array()},
+        {"configurations", Json::array()},
+        {"front", Json::array()}};
+    for (const Knob& knob : knobs) {
+        Json values = Json::array();
+        for (const Knob::Value& value : knob.values)
+            values.push_back(
+                {{"value", value.text}, {"configuration", configurations[value.configuration].name}});
+        json["knobs"].push_back({{"name", knob.name},
+                                 {"what", knob.what},
+                                 {"reference", configurations[knob.reference].name},
+                                 {"values", values},
+                                 {"sentence", sentence(knob, estimates, measured)}});
+    }
+    for (std::size_t i = 0; i < configurations.size(); ++i) {
+        const Measurements& of_one = measured[i];
+        const Place place = place_of(i, knobs);
+        Json one = {{"name", configurations[i].name},
+                    {"knob", place.knob == nullptr ? "" : place.knob->name},
+                    {"value", place.value},
+                    {"base", i == 0},
+                    {"command", configurations[i].command},
+                    {"problem", of_one.problem.empty() ? Json(nullptr) : Json(of_one.problem)}};
+        if (of_one.problem.empty() && !estimates[i])
+            one["problem"] = "fewer than two rounds were measured: no interval";
+        if (estimates[i]) {
+            const Estimates& found = *estimates[i];
+            // Beside the reference of its knob; for the base itself there is nothing to compare with.
+            const std::size_t reference = place.knob == nullptr ? 0 : place.knob->reference;
+            const bool compared = reference != i;
+            const std::vector<Round>& others = measured[reference].rounds;
+            one["batches"] = std::accumulate(
+                of_one.rounds.begin(), of_one.rounds.end(), std::uint64_t{0},
+                [](std::uint64_t sum, const Round& round) { return sum + round.plan.batches; });
+            one["batch_size"] = of_one.plan->batch_size;
+            one["build"] = json_of(found.build);
+            one["render"] = json_of(found.render);
+            one["bias"] = json_of(found.bias);
+            one["noise"] = json_of(found.noise);
+            one["bias_squared"] = json_of(found.bias_squared);
+            one["floor"] = found.floor;
+            one["relmse_1s"] = json_of(found.relmse_1s);
+            one["efficiency"] = json_of(found.efficiency);
+            one["reference"] = configurations[reference].name;
+            one["time_to_equal_error"] =
+                compared ? json_of(time_to_equal_noise(of_one.rounds, others)) : Json(nullptr);
+            one["speed"] = compared ? json_of(speed(of_one.rounds, others)) : Json(nullptr);
+            one["memory"] = range_of(of_one.peak_bytes);
+            one["front"] = static_cast<bool>(on_front[i]);
+            one["skewed"] = found.skewed;
+            one["picture"] = images::base64(of_one.picture);
+            one["picture_seconds"] = of_one.rounds[0].render.wall;
+            one["picture_samples"] = of_one.rounds[0].samples();
+        }
+        one["plan"] =
+            of_one.plan ? Json::array({of_one.plan->batch_size, of_one.plan->batches}) : Json(nullptr);
+        one["peak_bytes"] = of_one.peak_bytes;
+        one["raw"] = Json::array();
+        for (const Round& round : of_one.rounds) one["raw"].push_back(raw(round));
+        json["configurations"].push_back(one);
+    }
+    for (const Segment& segment : front.segments)
+        json["front"].push_back({{"configuration", configurations[with_curve[segment.curve]].name},
+                                 {"from", segment.from},
+                                 {"to", segment.to}});
+    return json;
+}
+
+} // namespace trade
