@@ -8,6 +8,7 @@
 #include "cli/interrupt.h"
 #include "cli/render_command.h"
 #include "cli/standard_output.h"
+#include "cli/trade_command.h"
 #include "cuda/launch/device.h"
 
 #include <CLI/CLI.hpp>
@@ -80,6 +81,7 @@ int main(int argc, char** argv)
     cli::add_bvh_command(program, work);
     cli::add_golden_command(program, work);
     cli::add_compare_command(program, work);
+    cli::add_trade_command(program, work);
     cli::take_exponents(program);
 
     const int status = run(program, work, argc, argv);

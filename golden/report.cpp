@@ -3,6 +3,7 @@
 #include "golden/report_page.h" // page_template, made from report_page.html
 #include "images/atomic_file.h"
 #include "images/base64.h"
+#include "images/exposure.h"
 #include "images/flip.h"
 #include "images/png.h"
 #include "images/strategy_sheet.h"
@@ -52,15 +53,6 @@ std::string escaped(std::string_view text)
             out += c;
     }
     return out;
-}
-
-/// Stops that bring the picture's mean to a middle grey of 0.18, in whole stops; 0 for a black one.
-double exposure_for(const images::Image& image)
-{
-    double sum = 0.0;
-    for (const images::Rgb& pixel : image.pixels) sum += pixel.x + pixel.y + pixel.z;
-    const double mean = sum / (3.0 * static_cast<double>(image.pixels.size()));
-    return mean > 0.0 ? std::round(std::log2(0.18 / mean)) : 0.0;
 }
 
 Json json_of(const Finding& finding)
@@ -196,7 +188,7 @@ std::string report_page(const Report& report)
 {
     Json data = numbers_of(report);
     const images::ErrorMap flip_map = images::flip(report.golden.mean, report.candidate);
-    data["exposure"] = exposure_for(report.golden.mean);
+    data["exposure"] = images::middle_exposure(report.golden.mean);
     data["pictures"] = {{"golden", base64_of(report.golden.mean)},
                         {"candidate", base64_of(report.candidate)},
                         {"flip", base64_floats({flip_map.begin(), flip_map.end()})}};

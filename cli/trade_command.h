@@ -1,0 +1,47 @@
+#pragma once
+
+// The subcommand `trade`: its options, and the function that adds it (see command.h).
+
+#include "cli/command.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace cli {
+
+struct TradeCommand {
+    std::string scene;
+    std::string size = "64x64";
+    bool frame = false;
+    double seconds = 60.0;
+    std::size_t rounds = 8;
+    double precision = 0.1;
+    std::uint64_t seed = 1;
+    std::vector<std::string> base;  // "integrator=bdpt"
+    std::vector<std::string> knobs; // "threads", "max-edges=2,4"; empty: the usual ones
+    std::string output;             // .json
+    std::string report;             // .html
+    bool resume = false;
+    std::string truth; // a golden; empty: the cached one
+    double truth_seconds = 60.0;
+    std::string cache;                                                    // folder
+    unsigned threads = std::max(1U, std::thread::hardware_concurrency()); // of the truth's render
+    bool json = false;
+    bool quiet = false;
+    bool size_given = false;
+};
+
+/// Adds the options to `command`, which sets `options` when it is parsed, all but size_given.
+void add_trade_options(CLI::App& command, TradeCommand& options);
+
+/// Throws std::invalid_argument or images::ImageError for options that exclude each other, and for files
+/// that cannot be written.
+void check(const TradeCommand& options);
+
+/// Adds the subcommand to `program`.
+void add_trade_command(CLI::App& program, Work& work);
+
+} // namespace cli
