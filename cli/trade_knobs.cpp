@@ -17,7 +17,7 @@ namespace {
 using Values = std::vector<std::string>;
 
 /// A knob: its values are settings of one option, except of `roulette` (see turn).
-struct Rule {
+struct KnobRule {
     const char* name;
     const char* what;
     bool usual;                // turned if none is named
@@ -48,73 +48,75 @@ bool is(const Settings& settings, const char* option, const char* value)
     return found != settings.end() && found->second == value;
 }
 
-const std::array rules = {
-    Rule{"integrator",
-         "which strategies: path (from the eye), bdpt (from both ends), light (from the light)",
-         true,
-         "path",
-         {},
-         [](const Settings&) {
-             return Values{"path", "bdpt", "light"};
-         }},
-    Rule{"device",
-         "double precision by the reference (ref), or floats (host: this processor, cuda: a GPU)",
-         true,
-         "ref",
-         {},
-         [](const Settings&) {
-             return Values{"host", "ref"};
-         }},
-    Rule{"threads", "threads of the processor", true, "", {}, [](const Settings&) { return threads(); }},
-    Rule{"instructions",
-         "vector instructions of the host's kernels; change no bit",
-         false,
-         "best",
-         {{"device", "host"}},
-         [](const Settings&) { return instruction_sets(); }},
-    Rule{"max-edges",
-         "the longest path: shorter ones lack light",
-         true,
-         "unlimited",
-         {},
-         [](const Settings&) { return Values{"2", "3", "4", "6", "10", "unlimited"}; }},
-    Rule{"roulette",
-         "the first bounce at which Russian roulette may end a walk, or off",
-         false,
-         "5",
-         {},
-         [](const Settings& reference) {
-             return reference.contains("max-edges") ? Values{"5", "off"} : Values{"5"};
-         }},
-    Rule{"ref-tree",
-         "tree of the reference: by Morton codes of 30 or 63 bits, or by the surface area heuristic",
-         false,
-         "sah-leaf",
-         {{"device", "ref"}},
-         [](const Settings&) {
-             return Values{"sah-leaf", "sah", "morton63", "morton30"};
-         }},
-    Rule{"heuristic",
-         "weights of bdpt: balance, or power (squares)",
-         false,
-         "balance",
-         {{"integrator", "bdpt"}},
-         [](const Settings&) {
-             return Values{"balance", "power"};
-         }},
+const std::array knob_rules = {
+    KnobRule{"integrator",
+             "which strategies: path (from the eye), bdpt (from both ends), light (from the light)",
+             true,
+             "path",
+             {},
+             [](const Settings&) {
+                 return Values{"path", "bdpt", "light"};
+             }},
+    KnobRule{"device",
+             "double precision by the reference (ref), or floats (host: this processor, cuda: a GPU)",
+             true,
+             "ref",
+             {},
+             [](const Settings&) {
+                 return Values{"host", "ref"};
+             }},
+    KnobRule{
+        "threads", "threads of the processor", true, "", {}, [](const Settings&) { return threads(); }},
+    KnobRule{"instructions",
+             "vector instructions of the host's kernels; change no bit",
+             false,
+             "best",
+             {{"device", "host"}},
+             [](const Settings&) { return instruction_sets(); }},
+    KnobRule{"max-edges",
+             "the longest path: shorter ones lack light",
+             true,
+             "unlimited",
+             {},
+             [](const Settings&) { return Values{"2", "3", "4", "6", "10", "unlimited"}; }},
+    KnobRule{"roulette",
+             "the first bounce at which Russian roulette may end a walk, or off",
+             false,
+             "5",
+             {},
+             [](const Settings& reference) {
+                 return reference.contains("max-edges") ? Values{"5", "off"} : Values{"5"};
+             }},
+    KnobRule{"ref-tree",
+             "tree of the reference: by Morton codes of 30 or 63 bits, or by the surface area heuristic",
+             false,
+             "sah-leaf",
+             {{"device", "ref"}},
+             [](const Settings&) {
+                 return Values{"sah-leaf", "sah", "morton63", "morton30"};
+             }},
+    KnobRule{"heuristic",
+             "weights of bdpt: balance, or power (squares)",
+             false,
+             "balance",
+             {{"integrator", "bdpt"}},
+             [](const Settings&) {
+                 return Values{"balance", "power"};
+             }},
 };
 
-const Rule& rule_of(const std::string& name)
+const KnobRule& rule_of(const std::string& name)
 {
-    for (const Rule& rule : rules)
+    for (const KnobRule& rule : knob_rules)
         if (name == rule.name) return rule;
     std::string known;
-    for (const Rule& rule : rules) known += (known.empty() ? "" : ", ") + std::string(rule.name);
+    for (const KnobRule& rule : knob_rules)
+        known += (known.empty() ? "" : ", ") + std::string(rule.name);
     throw std::invalid_argument("--knobs " + name + ": no such knob; there are " + known);
 }
 
 /// The option of `plumbline render` that a knob turns.
-std::string option_of(const Rule& rule)
+std::string option_of(const KnobRule& rule)
 {
     return std::string(rule.name) == "ref-tree" ? "builder" : rule.name;
 }
@@ -141,7 +143,7 @@ void set(Settings& settings, const std::string& option, const std::string& value
 }
 
 /// `settings` with this value of the knob.
-Settings turn(Settings settings, const Rule& rule, const std::string& value)
+Settings turn(Settings settings, const KnobRule& rule, const std::string& value)
 {
     if (std::string(rule.name) == "roulette") {
         settings.erase("no-roulette");
@@ -156,7 +158,7 @@ Settings turn(Settings settings, const Rule& rule, const std::string& value)
     return settings;
 }
 
-std::string value_of(const Settings& settings, const Rule& rule)
+std::string value_of(const Settings& settings, const KnobRule& rule)
 {
     if (std::string(rule.name) == "roulette") {
         if (settings.contains("no-roulette")) return "off";
@@ -191,7 +193,7 @@ std::vector<Request> requests_of(const std::vector<std::string>& knobs)
     std::vector<Request> requests;
     const bool all = std::ranges::find(knobs, "all") != knobs.end();
     if (all || knobs.empty())
-        for (const Rule& rule : rules)
+        for (const KnobRule& rule : knob_rules)
             if (all || rule.usual) requests.push_back({rule.name, {}});
     for (const std::string& knob : knobs) {
         if (knob == "all") continue;
@@ -219,8 +221,8 @@ std::string difference(const Settings& settings, const Settings& base)
     }
     for (const auto& [option, value] : base) {
         if (settings.contains(option)) continue;
-        const auto rule = std::ranges::find(rules, option, &Rule::name);
-        const bool has_default = rule != rules.end() && rule->default_value[0] != '\0';
+        const auto rule = std::ranges::find(knob_rules, option, &KnobRule::name);
+        const bool has_default = rule != knob_rules.end() && rule->default_value[0] != '\0';
         add(has_default ? option + "=" + rule->default_value : "no " + option);
     }
     return text.empty() ? "base" : text;
@@ -255,7 +257,7 @@ bool is_longer(const std::string& value, int max_edges)
 std::string describe_knobs()
 {
     std::string text;
-    for (const Rule& rule : rules)
+    for (const KnobRule& rule : knob_rules)
         text += std::string(rule.usual ? "* " : "  ") + rule.name + ": " + rule.what + "\n";
     return text;
 }
@@ -276,7 +278,7 @@ TradePlan plan_of(const Settings& base, const std::vector<std::string>& knobs, i
 {
     Collected collected(base);
     for (const Request& request : requests_of(knobs)) {
-        const Rule& rule = rule_of(request.name);
+        const KnobRule& rule = rule_of(request.name);
         Settings reference = base;
         for (const auto& [option, value] : rule.home)
             reference = turn(reference, rule_of(option), value);
@@ -321,8 +323,9 @@ RenderCommand render_of(const Settings& settings, const TradeView& view)
     RenderCommand options;
     add_render_options(command, options);
     std::vector<std::string> arguments = arguments_of(settings, view);
-    arguments[0] = "--output=picture.exr"; // required, not written
-    std::ranges::reverse(arguments);       // CLI11 takes them from the back
+    arguments.erase(arguments.begin());             // "render"
+    arguments.emplace_back("--output=picture.exr"); // required; nothing is written
+    std::ranges::reverse(arguments);                // CLI11 takes them from the back
     try {
         command.parse(arguments);
     } catch (const CLI::ParseError& error) {

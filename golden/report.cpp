@@ -5,6 +5,7 @@
 #include "images/base64.h"
 #include "images/exposure.h"
 #include "images/flip.h"
+#include "images/page_template.h"
 #include "images/png.h"
 #include "images/strategy_sheet.h"
 
@@ -36,23 +37,6 @@ std::string base64_of(const images::Image& image)
     for (const images::Rgb& pixel : image.pixels)
         for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(pixel[c]));
     return base64_floats(values);
-}
-
-/// For text between tags.
-std::string escaped(std::string_view text)
-{
-    std::string out;
-    for (const char c : text) {
-        if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '&')
-            out += "&amp;";
-        else
-            out += c;
-    }
-    return out;
 }
 
 Json json_of(const Finding& finding)
@@ -174,7 +158,8 @@ std::string sheet_of(const images::Layers& layers)
             strategies.emplace(std::pair(s, t), image);
     }
     if (strategies.empty()) return {};
-    return "data:image/png;base64," + images::base64(images::encode_png(images::strategy_sheet(strategies)));
+    return "data:image/png;base64," +
+           images::base64(images::encode_png(images::strategy_sheet(strategies)));
 }
 
 } // namespace
@@ -194,29 +179,14 @@ std::string report_page(const Report& report)
                         {"flip", base64_floats({flip_map.begin(), flip_map.end()})}};
     if (const std::string sheet = sheet_of(report.strategies); !sheet.empty())
         data["pictures"]["strategies"] = sheet;
-    // Only a "<" can end a script element.
-    std::string text;
-    for (const char c : data.dump(-1, ' ', true))
-        text += c == '<' ? std::string("\\u003c") : std::string(1, c);
-
-    std::string page;
-    std::string_view rest = page_template;
-    while (!rest.empty()) {
-        const auto fill = [&](std::string_view mark, const std::string& content) {
-            if (!rest.starts_with(mark)) return false;
-            page += content;
-            rest.remove_prefix(mark.size());
-            return true;
-        };
-        if (fill("@TITLE@", escaped(report.title)) ||
-            fill("@VERDICT@", describe(report.comparison.verdict)) ||
-            fill("@REASON@", escaped(report.comparison.reason)) || fill("@DATA@", text))
-            continue;
-        const std::size_t next = rest.find('@', 1);
-        page += rest.substr(0, next);
-        rest.remove_prefix(std::min(next, rest.size()));
-    }
-    return page;
+    const std::string verdict = describe(report.comparison.verdict);
+    const std::string title = images::html_text(report.title);
+    const std::string reason = images::html_text(report.comparison.reason);
+    const std::string text = images::script_data(data.dump(-1, ' ', true));
+    return images::fill(
+        page_template,
+        std::array<images::Mark, 4>{
+            {{"@TITLE@", title}, {"@VERDICT@", verdict}, {"@REASON@", reason}, {"@DATA@", text}}});
 }
 
 void write_report(const std::filesystem::path& path, const Report& report)

@@ -33,7 +33,7 @@ std::string error_to_text(const Estimate& estimate)
 std::string percent_to_text(double relative)
 {
     std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.2g%%", 100.0 * relative);
+    std::snprintf(text.data(), text.size(), "%.3g%%", 100.0 * relative);
     return text.data();
 }
 

@@ -32,7 +32,7 @@ std::string to_text(const Estimate& estimate);
 /// it is not stated.
 std::string error_to_text(const Estimate& estimate);
 
-/// "3.2%", two digits.
+/// "3.21%", three digits.
 std::string percent_to_text(double relative);
 
 } // namespace trade

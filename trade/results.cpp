@@ -87,7 +87,7 @@ Json noise_of_machine(const std::vector<Measurements>& measured, double precisio
             {"sentence",
              noisy ? "The machine was too noisy for the precision asked for: the median "
                      "half width of a ratio of times is " +
-                         percent_to_text(*middle) + ", not " + percent_to_text(precision) +
+                         percent_to_text(*middle) + ", and not at most " + percent_to_text(precision) +
                          ". More --seconds or a quieter machine helps."
                    : "The median half width of a ratio of times is " + percent_to_text(*middle) + "."}};
 }

@@ -1,7 +1,6 @@
 #include "trade/sentence.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace trade {
 
@@ -71,12 +70,12 @@ std::string sentence(const Knob& knob, const std::vector<std::optional<Estimates
         if (time.stated())
             unbiased.push_back({name_of(value.text), time, samples_from_which_it_pays(rounds, others)});
     }
-    std::string text = say_times(unbiased, reference);
-    if (!biased.empty()) text += "; biased: " + joined(biased, "; ");
+    std::vector<std::string> parts;
+    if (!unbiased.empty() || biased.empty()) parts.push_back(say_times(unbiased, reference));
+    if (!biased.empty()) parts.push_back("biased: " + joined(biased, "; "));
     if (!undecided.empty())
-        text += "; too noisy to tell whether they are biased: " + joined(undecided, ", ");
-    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-    return text + ".";
+        parts.push_back("too noisy to tell whether they are biased: " + joined(undecided, ", "));
+    return joined(parts, "; ") + ".";
 }
 
 } // namespace trade

@@ -1,14 +1,14 @@
 // The report in a real browser: it opens without errors, and its controls work.
 
+#include "tests/browser.h"
 #include "tests/cli/run_program.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
-
 namespace {
 
+using namespace browser_test;
 using namespace cli_test;
 
 /// Runs in the page after the page's own script. The results are written to the title of the page, which
@@ -44,32 +44,6 @@ try {
 found.errors = errors;
 document.title = "found " + JSON.stringify(found);
 </script>)";
-
-std::string browser()
-{
-    for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
-        if (std::system(("command -v " + std::string(name) + " >/dev/null").c_str()) == 0) return name;
-    return "";
-}
-
-/// The page's <title> after its scripts have run.
-std::string title_in_browser(const std::string& browser, const std::filesystem::path& page,
-                             const std::filesystem::path& profile)
-{
-    const std::string command = "timeout 120 " + browser +
-                                " --headless --no-sandbox --disable-gpu --disable-dev-shm-usage"
-                                " --user-data-dir='" +
-                                profile.string() + "' --virtual-time-budget=10000 --dump-dom 'file://" +
-                                page.string() + "' 2>/dev/null";
-    std::FILE* pipe = popen(command.c_str(), "r");
-    std::string text;
-    std::array<char, 4096> some{};
-    for (std::size_t n = 0; (n = std::fread(some.data(), 1, some.size(), pipe)) > 0;)
-        text.append(some.data(), n);
-    pclose(pipe);
-    const std::size_t begin = text.find("<title>") + 7;
-    return text.substr(begin, text.find("</title>") - begin);
-}
 
 TEST(ReportPage, OpensInABrowserAndItsControlsMove)
 {

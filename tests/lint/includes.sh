@@ -12,9 +12,9 @@ tracked '*.h' '*.cpp' '*.cu' '*.cuh' | xargs -0 -r awk '
         may["trade"] = " trade golden images "
         may["ref"] = " ref scenes images "
         may["cuda"] = " cuda scenes images "
-        may["cli"] = " cli trade ref cuda golden scenes images "
-        may["docs"] = " docs cli trade ref cuda golden scenes images "
-        may["tests"] = " tests cli trade ref cuda golden scenes images "
+        may["cli"] = " cli ref cuda golden trade scenes images "
+        may["docs"] = " docs cli ref cuda golden trade scenes images "
+        may["tests"] = " tests cli ref cuda golden trade scenes images "
     }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
         split(FILENAME, from, "/")

@@ -4,7 +4,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
-mkdir -p "$root"/{ref/trees,cuda/trees,scenes,images,golden,cli,tests}
+mkdir -p "$root"/{ref/trees,cuda/trees,scenes,images,golden,trade,cli,tests}
 failures=0
 
 # expect pass|fail CHECK FILE CONTENT: CHECK on a tree that holds only this file
@@ -27,6 +27,9 @@ expect fail includes.sh cuda/trees/a.cu '# include "ref/trees/ray.h"'
 expect fail includes.sh scenes/a.h '#include "images/image.h"'
 expect fail includes.sh golden/a.h '#include "scenes/scene.h"'
 expect pass includes.sh golden/a.h '#include "images/image.h"'
+expect pass includes.sh trade/a.h '#include "golden/statistics.h"'
+expect fail includes.sh trade/a.h '#include "ref/trees/ray.h"'
+expect fail includes.sh golden/a.h '#include "trade/page.h"'
 expect fail includes.sh images/a.h '#include "golden/golden.h"'
 expect fail includes.sh ref/a.h '#include "golden/golden.h"'
 expect fail includes.sh ref/trees/a.cpp '#include "cli/command.h"'
