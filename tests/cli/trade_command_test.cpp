@@ -1,0 +1,233 @@
+// `plumbline trade` finds what is known: the bias of short paths, equal configurations, no bias where
+// there is none; it can be interrupted and go on; and it refuses bad input in one line.
+
+#include "golden/golden.h"
+#include "tests/cli/run_program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace cli_test;
+using Json = nlohmann::json;
+
+std::string golden_file(const std::string& scene)
+{
+    return (std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "golden" / "renders" / (scene + ".exr"))
+        .string();
+}
+
+/// A study of a scene beside its golden.
+Arguments trade(const std::string& scene, const Arguments& more)
+{
+    return Arguments{"trade", scene_file(scene), "--truth", golden_file(scene)} + more;
+}
+
+Json results_of(const Arguments& arguments)
+{
+    const Outcome outcome = run(arguments + Arguments{"--json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return Json::parse(outcome.out);
+}
+
+const Json& configuration(const Json& results, const std::string& name)
+{
+    const Json& all = results.at("configurations");
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Json& one) { return one.at("name") == name; });
+    if (found == all.end()) throw std::runtime_error("no configuration " + name);
+    return *found;
+}
+
+std::string verdict(const Json& results, const std::string& name)
+{
+    return configuration(results, name).at("bias").at("verdict");
+}
+
+// In the integrating sphere a path of 2 + j edges adds rho^(1 + j) I / (pi R^2) everywhere, j > 0 (see
+// the head of the scene). The golden has paths of up to 6 edges.
+TEST(TradeCommand, FindsTheBiasOfShortPathsInTheIntegratingSphere)
+{
+    const golden::Golden golden = golden::read_golden(golden_file("integrating_sphere"));
+    double all = 0.0;
+    for (const images::Rgb& pixel : golden.mean.pixels)
+        all += (pixel.x + pixel.y + pixel.z) / static_cast<double>(golden.mean.pixels.size());
+    const std::array rho = {0.5, 0.8, 0.2};
+    const std::array intensity = {0.8, 0.4, 1.2};
+    const auto lost = [&](int max_edges) { // light of longer paths
+        double sum = 0.0;
+        for (std::size_t c = 0; c < 3; ++c)
+            for (int j = max_edges - 1; j <= 4; ++j)
+                sum += std::pow(rho[c], 1 + j) * intensity[c] / std::numbers::pi;
+        return sum;
+    };
+    const Json results = results_of(
+        trade("integrating_sphere", {"--seconds", "2", "--rounds", "4", "--knobs", "max-edges"}));
+    for (const int edges : {2, 3, 4}) {
+        const std::string name = "max-edges=" + std::to_string(edges);
+        const Json& bias = configuration(results, name).at("bias");
+        EXPECT_EQ(bias.at("verdict"), "biased") << name;
+        const double value = bias.at("whole").at("value");
+        const double half_width =
+            (bias.at("whole").at("high").get<double>() - bias.at("whole").at("low").get<double>()) / 2;
+        // Three times the half width of an interval of 95%: six standard errors.
+        EXPECT_NEAR(value, -lost(edges) / all, 3.0 * half_width) << name;
+        EXPECT_LT(half_width, 0.02) << name;
+    }
+    EXPECT_EQ(verdict(results, "base"), "none found");
+    // Longer than the truth: not measured.
+    EXPECT_EQ(results.dump().find("max-edges=10"), std::string::npos);
+}
+
+TEST(TradeCommand, StatesTimesMemoryAndCommandsOfEachConfiguration)
+{
+    const Json results = results_of(trade("cornell_diffuse", {"--seconds", "3", "--base", "max-edges=6",
+                                                              "--knobs", "instructions=best,baseline"}));
+    const Json& base = configuration(results, "base");
+    EXPECT_EQ(base.at("bias").at("verdict"), "none found");
+    EXPECT_NE(base.at("command").get<std::string>().find("--max-edges 6"), std::string::npos);
+    const Json& baseline = configuration(results, "instructions=baseline");
+    // The instructions change no bit: in each round the same samples, in another time. The numbers of
+    // batches differ with the time that they take.
+    EXPECT_EQ(baseline.at("reference"), "base");
+    EXPECT_EQ(baseline.at("bias").at("verdict"), "none found");
+    EXPECT_GT(baseline.at("memory").at("value"), 1e6);
+    for (const char* field : {"build", "render"})
+        for (const char* clock : {"wall", "cpu"})
+            EXPECT_LE(baseline.at(field).at(clock).at("low"), baseline.at(field).at(clock).at("high"));
+}
+
+TEST(TradeCommand, WritesResultsAndAPageAndPrintsATable)
+{
+    TemporaryFolder folder;
+    const std::string json = (folder / "t.json").string();
+    const std::string html = (folder / "t.html").string();
+    const Outcome outcome =
+        run(trade("furnace", {"--seconds", "0.5", "--rounds", "2", "--knobs", "threads=1,2",
+                              "integrator=path", "-o", json, "--report", html}));
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("threads=2"), std::string::npos);
+    EXPECT_NE(outcome.out.find("time to equal error"), std::string::npos);
+    const Json written = Json::parse(read_bytes(json));
+    EXPECT_EQ(written.at("format"), "plumbline trade 1");
+    EXPECT_TRUE(written.at("complete"));
+    EXPECT_NE(read_bytes(html).find("threads=2"), std::string::npos);
+    EXPECT_NE(written.at("command").get<std::string>().find("--rounds 2"), std::string::npos);
+}
+
+TEST(TradeCommand, RendersItsTruthOnceAndKeepsIt)
+{
+    TemporaryFolder folder;
+    const std::string cache = (folder / "cache").string();
+    const Arguments command = {
+        "trade", scene_file("furnace"), "--size", "8x8",      "--cache", cache,     "--truth-seconds",
+        "0.2",   "--seconds",           "0.3",    "--rounds", "2",       "--knobs", "threads=1"};
+    ASSERT_EQ(run(command).status, 0);
+    const auto first = std::filesystem::directory_iterator(cache);
+    ASSERT_NE(first, std::filesystem::directory_iterator());
+    const std::filesystem::path truth = first->path();
+    const std::string bytes = read_bytes(truth);
+    const auto time = std::filesystem::last_write_time(truth);
+    ASSERT_EQ(run(command).status, 0);
+    EXPECT_EQ(std::filesystem::last_write_time(truth), time);
+    EXPECT_TRUE(read_bytes(truth) == bytes);
+}
+
+TEST(TradeCommand, KeepsWhatIsMeasuredAndGoesOn)
+{
+    TemporaryFolder folder;
+    const std::string json = (folder / "t.json").string();
+    const Arguments command =
+        trade("furnace", {"--seconds", "8", "--rounds", "40", "--knobs", "threads=1,2", "-o", json});
+    Process process(command);
+    ASSERT_TRUE(eventually([&] {
+        return std::filesystem::exists(json) &&
+               Json::parse(read_bytes(json)).at("configurations").at(0).at("raw").size() >= 2;
+    }));
+    process.send(SIGINT);
+    const Outcome stopped = process.finish();
+    EXPECT_EQ(stopped.status, 130);
+    EXPECT_NE(stopped.err.find("--resume goes on"), std::string::npos) << stopped.err;
+    const Json before = Json::parse(read_bytes(json));
+    EXPECT_FALSE(before.at("complete"));
+    const std::size_t rounds = before.at("configurations").at(0).at("raw").size();
+    ASSERT_GE(rounds, 2U);
+    ASSERT_LT(rounds, 40U);
+
+    const Outcome resumed = run(command + Arguments{"--resume"});
+    ASSERT_EQ(resumed.status, 0) << resumed.err;
+    const Json after = Json::parse(read_bytes(json));
+    EXPECT_TRUE(after.at("complete"));
+    const Json& raw = after.at("configurations").at(0).at("raw");
+    EXPECT_EQ(raw.size(), 40U);
+    for (std::size_t r = 0; r < rounds; ++r)
+        EXPECT_EQ(raw.at(r), before.at("configurations").at(0).at("raw").at(r)) << r;
+}
+
+struct Bad {
+    const char* name;
+    Arguments more;
+    const char* message; // a part of it
+};
+
+class TradeRefuses : public testing::TestWithParam<Bad> {};
+
+const std::array bad_input = {
+    Bad{"UnknownKnob", {"--knobs", "colour"}, "no such knob"},
+    Bad{"EmptyValue", {"--knobs", "threads=1,,2"}, "empty value"},
+    Bad{"EmptyList", {"--knobs", "threads="}, "empty value"},
+    Bad{"KnobTwice", {"--knobs", "threads=1", "threads=2"}, "named twice"},
+    Bad{"UnknownValue", {"--knobs", "integrator=magic"}, "magic"},
+    Bad{"NoNumber", {"--knobs", "max-edges=many"}, "many"},
+    Bad{"UnknownBase", {"--base", "colour=red"}, "colour"},
+    Bad{"BaseWithoutValue", {"--base", "integrator"}, "OPTION=VALUE"},
+    Bad{"NoTime", {"--seconds", "0"}, "--seconds"},
+    Bad{"OneRound", {"--rounds", "1"}, "--rounds"},
+    Bad{"NoWord", {"--seconds", "soon"}, "--seconds"},
+    Bad{"UnwritableReport", {"--report", "/no/such/folder/t.html"}, "/no/such/folder"},
+    Bad{"UnwritableResults", {"-o", "/no/such/folder/t.json"}, "/no/such/folder"},
+    Bad{"ReportByAnotherName", {"--report", "t.txt"}, ".html"},
+    Bad{"ResumeOfNothing", {"--resume"}, "--resume needs -o"},
+    Bad{"SizeOfAnotherTruth", {"--size", "8x8"}, "size"},
+};
+
+INSTANTIATE_TEST_SUITE_P(BadInput, TradeRefuses, testing::ValuesIn(bad_input),
+                         [](const auto& bad) { return bad.param.name; });
+
+TEST_P(TradeRefuses, InOneLineAndWritesNothing)
+{
+    TemporaryFolder folder;
+    const Outcome outcome = run(trade("furnace", GetParam().more));
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(GetParam().message), std::string::npos) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("plumbline: ")) << outcome.err;
+}
+
+TEST(TradeCommand, RefusesTruthsAndResultsOfSomethingElse)
+{
+    TemporaryFolder folder;
+    const std::string json = (folder / "t.json").string();
+    const auto refused = [&](const Arguments& arguments, const char* message) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.status, 2) << outcome.err;
+        EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+        EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    };
+    refused({"trade", scene_file("furnace"), "--truth", golden_file("cornell_glass")}, "scene_hash");
+    refused({"trade", scene_file("furnace"), "--truth", scene_file("furnace")}, "furnace.dae");
+    refused({"trade", "-", "--truth", golden_file("furnace")}, "trade -");
+    for (const char* text : {"", "{", "[]", "{\"format\": 3}"}) {
+        write_bytes(json, text);
+        refused(trade("furnace", {"-o", json, "--resume"}), json.c_str());
+        EXPECT_EQ(read_bytes(json), text);
+    }
+}
+
+} // namespace
