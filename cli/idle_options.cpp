@@ -32,6 +32,7 @@ std::vector<Rule> rules_for(const RenderCommand& options)
     return {
         {"--heuristic", options.integrator != "bdpt", with_integrator + "it is for bdpt"},
         {"--builder", options.device != "ref", with_device + "the fast path has a tree of its own"},
+        {"--without", options.device != "ref", with_device + "it is for the reference"},
         {"--threads", options.device == "cuda", with_device + "it is for the host's processor"},
         {"--instructions", options.device != "host", with_device + "it is for the host's fast path"},
         {"--kernels", options.device != "cuda", with_device + "it is for the GPU"},

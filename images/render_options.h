@@ -24,6 +24,15 @@ enum class Heuristic {
 /// weight 1.
 enum class StrategyPictures { none, weighted, unweighted };
 
+/// A set of families of strategies (ref/transport/connect.h): those that are true.
+struct Families {
+    bool emission_hit = true;
+    bool next_event = true;
+    bool light_image = true;
+    bool inner_connection = true;
+    constexpr bool operator==(const Families&) const = default;
+};
+
 inline constexpr int unlimited_edges = std::numeric_limits<int>::max();
 
 /// With pictures of strategies: there are more than 150 of them, and each must fit in memory.
@@ -38,6 +47,9 @@ struct RenderOptions {
     std::uint32_t batch_size = 4;    // samples per pixel of a batch
     /// With pictures, max_edges is at most most_edges_of_strategies.
     StrategyPictures strategies = StrategyPictures::none;
+    /// Those that contribute. The weights are those of all families, so a picture lacks exactly the
+    /// weighted contributions of the families that are left out. Of the reference only.
+    Families families = {};
     bool deterministic = false; // the same bits every time, even if that takes more time and memory
 };
 

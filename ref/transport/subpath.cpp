@@ -47,6 +47,7 @@ std::vector<Vertex> eye_subpath(const World& world, const PathOptions& options, 
 std::vector<Vertex> light_subpath(const World& world, const PathOptions& options, const SampleId& id,
                                   std::size_t max_vertices)
 {
+    if (max_vertices == 0) return {};
     const auto emission = sample_emission(world, uniforms(id, Event::emission_position),
                                           uniforms(id, Event::emission_direction));
     if (!emission) return {};
