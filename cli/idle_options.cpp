@@ -31,6 +31,8 @@ std::vector<Rule> rules_for(const RenderCommand& options)
     const std::string with_device = "with --device " + options.device + ": ";
     return {
         {"--heuristic", options.integrator != "bdpt", with_integrator + "it is for bdpt"},
+        {"--heuristic", options.heuristic == "uniform" && options.device != "ref",
+         with_device + "it is for the reference"},
         {"--builder", options.device != "ref", with_device + "the fast path has a tree of its own"},
         {"--without", options.device != "ref", with_device + "it is for the reference"},
         {"--threads", options.device == "cuda", with_device + "it is for the host's processor"},

@@ -25,7 +25,8 @@ const std::map<std::string, images::Integrator> integrators = {{"path", images::
                                                                {"bdpt", images::Integrator::bdpt},
                                                                {"light", images::Integrator::light}};
 const std::map<std::string, images::Heuristic> heuristics = {{"balance", images::Heuristic::balance},
-                                                             {"power", images::Heuristic::power}};
+                                                             {"power", images::Heuristic::power},
+                                                             {"uniform", images::Heuristic::uniform}};
 
 images::Families families_but(const std::vector<std::string>& without)
 {
@@ -113,8 +114,10 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
                     "Tree of ref: morton30, morton63, sah or sah-leaf; changes no bit")
         ->check(one_of(builder_names()))
         ->capture_default_str();
-    command.add_option("--heuristic", options.heuristic, "Weights of bdpt: balance or power")
-        ->check(one_of({"balance", "power"}))
+    command
+        .add_option("--heuristic", options.heuristic,
+                    "Weights of bdpt: balance, power or uniform (biased)")
+        ->check(one_of({"balance", "power", "uniform"}))
         ->capture_default_str();
     command
         .add_option("--max-edges", options.max_edges,

@@ -16,7 +16,13 @@ enum class Integrator {
 /// The weights of strategies that can make the same path [Veach 1997, sec. 9.2].
 enum class Heuristic {
     balance, // in proportion to their densities
-    power    // in proportion to the squares of their densities
+    power,   // in proportion to the squares of their densities
+    /// A warning example, of the reference only: 1 / (i + j + 1) for i eye and j light vertices after
+    /// the first, as in a course report of 2015. The k strategies s = 1 ... k of a path of k edges count
+    /// 1 / k each, whether they can make the path or not, and s = 0 counts only for k = 1, and then
+    /// alone. Unbiased only where all of s = 1 ... k can make the path, as in a room of diffuse walls.
+    /// Light by way of mirrors and glass is too dim (docs/bdpt.md).
+    uniform
 };
 
 /// Whether a batch also holds a picture of each strategy (s, t). Weighted, each path counts with its

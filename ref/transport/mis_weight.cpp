@@ -35,6 +35,13 @@ double pdf_camera(const World& world, const Vertex& eye, const Vertex& next)
     return pdf * cosine(next, w) / glm::dot(d, d);
 }
 
+/// The weight of strategy s for a path of k edges by Heuristic::uniform.
+double uniform_weight(std::size_t s, std::size_t k)
+{
+    if (k == 1) return s == 0 ? 1.0 : 0.0;
+    return s == 0 ? 0.0 : 1.0 / static_cast<double>(k);
+}
+
 } // namespace
 
 VertexDensities vertex_densities(const World& world, const PathOptions& options, const Path& x)
@@ -85,6 +92,7 @@ std::vector<double> density_quotients(const World& world, const Path& x, const V
 double mis_weight(const World& world, const PathOptions& options, const Path& x, std::size_t s)
 {
     if (!is_possible(world, x, s)) return 0.0;
+    if (options.heuristic == Heuristic::uniform) return uniform_weight(s, x.size() - 1);
     const VertexDensities p = vertex_densities(world, options, x);
     for (std::size_t i = 0; i < x.size(); ++i) // no walk goes along a surface, to within rounding
         if ((i < s ? p.light[i] : p.eye[i]) == 0.0) return 0.0;

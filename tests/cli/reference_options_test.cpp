@@ -66,4 +66,9 @@ TEST_F(ReferenceOptions, WithoutLeavesFamiliesOut)
               0);
 }
 
+TEST_F(ReferenceOptions, UniformIsAHeuristic)
+{
+    expect_another_picture({"--heuristic", "uniform"}, "heuristic", "uniform");
+}
+
 } // namespace
