@@ -7,7 +7,7 @@ namespace cli {
 namespace {
 
 /// The entries that `describe` leaves out.
-const images::Metadata defaults = {{"device", "ref"}, {"without", "nothing"}};
+const images::Metadata defaults = {{"device", "ref"}, {"roulette_from", "5"}, {"without", "nothing"}};
 
 /// The families that are left out, in the order of their names' list.
 std::string names_of_left_out(const RenderCommand& options)
@@ -39,6 +39,7 @@ images::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
         if (value != defaults.at(key)) metadata[key] = value;
     };
     add("device", options.device);
+    add("roulette_from", std::to_string(options.roulette_from));
     add("without", names_of_left_out(options));
     return metadata;
 }

@@ -125,6 +125,11 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
         ->check(CLI::Range(1, 1 << 20).description(""));
     command.add_flag("--no-roulette", options.no_roulette, "No Russian roulette");
     command
+        .add_option("--roulette-from", options.roulette_from,
+                    "The first bounce that roulette may end, at least 1")
+        ->check(CLI::Range(1, 1 << 20).description(""))
+        ->capture_default_str();
+    command
         .add_option("--without", options.without,
                     "Leave out emission_hit, next_event, light_image or inner_connection")
         ->allow_extra_args(false)
@@ -246,6 +251,7 @@ images::RenderOptions render_options(const RenderCommand& options)
     plan.seed = options.seed;
     plan.max_edges = options.max_edges;
     plan.roulette = !options.no_roulette;
+    plan.roulette_from = options.roulette_from;
     plan.families = families_but(options.without);
     plan.batch_size = options.batch_size;
     plan.deterministic = options.deterministic;

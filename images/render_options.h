@@ -50,7 +50,10 @@ struct RenderOptions {
     std::uint64_t seed = 0;
     int max_edges = unlimited_edges; // of a path, the camera's included; at least 1
     bool roulette = true;            // unbiased either way; with none, max_edges must bound the paths
-    std::uint32_t batch_size = 4;    // samples per pixel of a batch
+    /// The first bounce of a walk that roulette may end, at least 1. Of the reference only; the fast
+    /// path has the default.
+    int roulette_from = 5;
+    std::uint32_t batch_size = 4; // samples per pixel of a batch
     /// With pictures, max_edges is at most most_edges_of_strategies.
     StrategyPictures strategies = StrategyPictures::none;
     /// Those that contribute. The weights are those of all families, so a picture lacks exactly the

@@ -10,6 +10,8 @@ namespace images {
 void check(const RenderOptions& options)
 {
     if (options.max_edges < 1) throw std::invalid_argument("a path has at least one edge");
+    if (options.roulette_from < 1)
+        throw std::invalid_argument("roulette begins with the first bounce or a later one");
     if (options.strategies != StrategyPictures::none && options.max_edges > most_edges_of_strategies)
         throw std::invalid_argument("a picture for each strategy needs paths of at most " +
                                     std::to_string(most_edges_of_strategies) + " edges");

@@ -77,6 +77,8 @@ inline void expect_fast_options(const images::RenderOptions& options)
     const auto refuse = [](const std::string& option) {
         throw std::invalid_argument("the fast path has no " + option + ": only the reference does");
     };
+    if (options.roulette_from != bounces_without_roulette + 1)
+        refuse("choice of the first bounce of roulette");
     if (options.heuristic == images::Heuristic::uniform) refuse("uniform weights");
     if (!(options.families == images::Families{})) refuse("choice of the families of strategies");
 }

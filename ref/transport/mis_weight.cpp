@@ -19,7 +19,8 @@ double pdf_next(const World& world, const PathOptions& options, const Vertex& pr
     const double pdf_solid_angle = is_delta(material)
                                        ? density_of_delta_lobe(material, wo_local, wi_local)
                                        : pdf_solid_angle_bsdf(material, wo_local, wi_local);
-    const double pdf = pdf_solid_angle * survival_probability(material, bounce, options.roulette);
+    const double pdf = pdf_solid_angle *
+                       survival_probability(material, bounce, options.roulette, options.roulette_from);
     if (next.kind == Vertex::Kind::infinity) return pdf;
     const Vec3 d = next.point.position - vertex.point.position;
     return pdf * cosine(next, w) / glm::dot(d, d); // [Veach 1997, eq. 8.10]

@@ -36,9 +36,10 @@ void add_next_event(const World& world, const PathOptions& options, const Sample
     const Rgb f = evaluate_bsdf(material, wo_local, wi_local);
     if (f == Rgb(0.0) || !visible(world.geometry, point, *light)) return;
 
-    const double pdf_hit = light->delta ? 0.0
-                                        : pdf_solid_angle_bsdf(material, wo_local, wi_local) *
-                                              survival_probability(material, j, options.roulette);
+    const double pdf_hit =
+        light->delta ? 0.0
+                     : pdf_solid_angle_bsdf(material, wo_local, wi_local) *
+                           survival_probability(material, j, options.roulette, options.roulette_from);
     const Rgb value = walk.throughput * f * std::abs(wi_local.z) * light->radiance / light->pdf;
     out.push_back({id.pixel, 1, j + 1, value, light->pdf / (light->pdf + pdf_hit)});
 }
@@ -80,7 +81,8 @@ void trace_path(const World& world, const PathOptions& options, const SampleId& 
 
         const Uniforms u = uniforms(id, Event::eye_bounce, static_cast<std::uint32_t>(j));
         const BsdfSample bounce = sample_bsdf(material, wo_local, u, Transport::radiance);
-        const double survival = survival_probability(material, j, options.roulette);
+        const double survival =
+            survival_probability(material, j, options.roulette, options.roulette_from);
         if (bounce.value == Rgb(0.0) || u[3] >= survival) return;
 
         const Vec3 wi = glm::normalize(frame.to_world(bounce.wi_local));

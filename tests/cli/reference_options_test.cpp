@@ -71,4 +71,9 @@ TEST_F(ReferenceOptions, UniformIsAHeuristic)
     expect_another_picture({"--heuristic", "uniform"}, "heuristic", "uniform");
 }
 
+TEST_F(ReferenceOptions, RouletteFromIsTheFirstBounceThatItMayEnd)
+{
+    expect_another_picture({"--roulette-from", "2"}, "roulette_from", "2");
+}
+
 } // namespace
