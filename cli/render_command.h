@@ -27,6 +27,8 @@ struct RenderCommand {
     std::string heuristic = "balance";
     int max_edges = images::unlimited_edges;
     bool no_roulette = false;
+    int roulette_from = images::RenderOptions{}.roulette_from;
+    std::vector<std::string> without; // families of strategies
     bool deterministic = false;
     std::uint64_t seed = 0;
     double exposure = 0.0;

@@ -1,6 +1,25 @@
 #include "cli/render_metadata.h"
 
+#include "images/families.h"
+
 namespace cli {
+
+namespace {
+
+/// The entries that `describe` leaves out.
+const images::Metadata defaults = {{"device", "ref"}, {"roulette_from", "5"}, {"without", "nothing"}};
+
+/// The families that are left out, in the order of their names' list.
+std::string names_of_left_out(const RenderCommand& options)
+{
+    const images::Families families = render_options(options).families;
+    std::string names;
+    for (const auto& [name, family] : images::named_families)
+        if (!(families.*family)) names += (names.empty() ? "" : " ") + std::string(name);
+    return names.empty() ? "nothing" : names;
+}
+
+} // namespace
 
 images::Metadata describe(const RenderCommand& options, const scenes::Scene& scene)
 {
@@ -16,8 +35,18 @@ images::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
                                  {"seed", std::to_string(options.seed)},
                                  {"camera", options.frame ? "framed" : "of the scene"},
                                  {"version", PLUMBLINE_VERSION}};
-    // No entry for the reference, so that its files do not change.
-    if (options.device != "ref") metadata["device"] = options.device;
+    const auto add = [&](const char* key, const std::string& value) {
+        if (value != defaults.at(key)) metadata[key] = value;
+    };
+    add("device", options.device);
+    add("roulette_from", std::to_string(options.roulette_from));
+    add("without", names_of_left_out(options));
+    return metadata;
+}
+
+images::Metadata with_defaults(images::Metadata metadata)
+{
+    metadata.insert(defaults.begin(), defaults.end());
     return metadata;
 }
 

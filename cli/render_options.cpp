@@ -5,11 +5,13 @@
 #include "cli/builders.h"
 #include "cli/output_files.h"
 #include "cli/scene_input.h"
+#include "images/families.h"
 #include "images/whole_number.h"
 #include "images/write_image.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -23,7 +25,23 @@ const std::map<std::string, images::Integrator> integrators = {{"path", images::
                                                                {"bdpt", images::Integrator::bdpt},
                                                                {"light", images::Integrator::light}};
 const std::map<std::string, images::Heuristic> heuristics = {{"balance", images::Heuristic::balance},
-                                                             {"power", images::Heuristic::power}};
+                                                             {"power", images::Heuristic::power},
+                                                             {"uniform", images::Heuristic::uniform}};
+
+images::Families families_but(const std::vector<std::string>& without)
+{
+    images::Families families;
+    for (const auto& [name, family] : images::named_families)
+        if (std::ranges::find(without, name) != without.end()) families.*family = false;
+    return families;
+}
+
+std::vector<std::string> family_names()
+{
+    std::vector<std::string> names;
+    for (const auto& [name, family] : images::named_families) names.emplace_back(name);
+    return names;
+}
 
 /// Each is a picture in memory and in the file.
 constexpr std::uint64_t most_batches_kept = 1024;
@@ -50,12 +68,12 @@ void add_picture_options(CLI::App& command, RenderCommand& options)
     command
         .add_option("-s,--samples", options.samples,
                     "Samples per pixel, those of an earlier render included")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31).description(""))
         ->capture_default_str();
     command
         .add_option("--batch", options.batch_size,
-                    "Samples in a batch, unit of error and resuming [up to 4, dividing -s]")
-        ->check(CLI::Range(1u, 1u << 20));
+                    "In a batch, the unit of error and resuming [up to 4, dividing -s]")
+        ->check(CLI::Range(1u, 1u << 20).description(""));
 }
 
 /// The processor that renders.
@@ -64,7 +82,7 @@ void add_device_options(CLI::App& command, RenderCommand& options)
     command
         .add_option("-t,--threads", options.threads,
                     "Threads, not for cuda; the picture does not depend on them")
-        ->check(CLI::Range(1u, 1024u))
+        ->check(CLI::Range(1u, 1024u).description(""))
         ->capture_default_str();
     command
         .add_option("--device", options.device,
@@ -96,14 +114,26 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
                     "Tree of ref: morton30, morton63, sah or sah-leaf; changes no bit")
         ->check(one_of(builder_names()))
         ->capture_default_str();
-    command.add_option("--heuristic", options.heuristic, "Weights of bdpt: balance or power")
-        ->check(one_of({"balance", "power"}))
+    command
+        .add_option("--heuristic", options.heuristic,
+                    "Weights of bdpt: balance, power or uniform (biased)")
+        ->check(one_of({"balance", "power", "uniform"}))
         ->capture_default_str();
     command
         .add_option("--max-edges", options.max_edges,
                     "Longest path, the camera's edge counted [no limit]")
-        ->check(CLI::Range(1, 1 << 20));
+        ->check(CLI::Range(1, 1 << 20).description(""));
     command.add_flag("--no-roulette", options.no_roulette, "No Russian roulette");
+    command
+        .add_option("--roulette-from", options.roulette_from,
+                    "The first bounce that roulette may end, at least 1")
+        ->check(CLI::Range(1, 1 << 20).description(""))
+        ->capture_default_str();
+    command
+        .add_option("--without", options.without,
+                    "Leave out emission_hit, next_event, light_image or inner_connection")
+        ->allow_extra_args(false)
+        ->check(one_of(family_names()));
     command.add_option("--seed", options.seed, "Seed of the random numbers")
         ->check(expect_seed)
         ->capture_default_str();
@@ -131,6 +161,17 @@ void add_output_options(CLI::App& command, RenderCommand& options)
     command.add_flag("--json", options.json,
                      "Print one JSON object: time, samples, mean and its error, kernel");
     command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
+}
+
+/// Throws unless the integrator has the families that are left out, and others.
+void check_families(const RenderCommand& options)
+{
+    try {
+        images::expect_families(integrators.at(options.integrator), families_but(options.without));
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument("--without with --integrator " + options.integrator + ": " +
+                                    error.what());
+    }
 }
 
 /// Throws unless each file can be written and is no other file of this command.
@@ -179,6 +220,7 @@ void check(const RenderCommand& options)
         throw std::invalid_argument("--no-roulette needs --max-edges: paths would never end");
     if (std::isnan(options.exposure) || std::isnan(options.watch))
         throw std::invalid_argument("--exposure and --watch expect numbers, and got a NaN");
+    check_families(options);
     const bool layers = wants_layers(options);
     if (layers && options.max_edges > images::most_edges_of_strategies)
         throw std::invalid_argument("--strategies needs --max-edges of at most " +
@@ -209,6 +251,8 @@ images::RenderOptions render_options(const RenderCommand& options)
     plan.seed = options.seed;
     plan.max_edges = options.max_edges;
     plan.roulette = !options.no_roulette;
+    plan.roulette_from = options.roulette_from;
+    plan.families = families_but(options.without);
     plan.batch_size = options.batch_size;
     plan.deterministic = options.deterministic;
     if (wants_layers(options))

@@ -27,11 +27,9 @@ images::Film starting_film(const RenderCommand& options, const images::Metadata&
 
     images::ExrPicture picture = images::read_exr(*exr);
     if (!picture.film) throw std::invalid_argument(*exr + ": holds no state to resume from");
-    images::Metadata expected = description;
-    expected.try_emplace("device", "ref"); // render_metadata.cpp omits it
-    picture.metadata.try_emplace("device", "ref");
-    for (const auto& [name, value] : expected) {
-        const std::string found = value_of(picture.metadata, name);
+    const images::Metadata held = with_defaults(picture.metadata);
+    for (const auto& [name, value] : with_defaults(description)) {
+        const std::string found = value_of(held, name);
         if (found == value) continue;
         const bool batch = name == "batch_size"; // may be a default
         throw std::invalid_argument(*exr + ": cannot resume: its " + name + " is '" + found +

@@ -83,9 +83,11 @@ const std::array knob_rules = {
              "the first bounce at which Russian roulette may end a walk, or off",
              false,
              "5",
-             {},
+             {{"device", "ref"}},
              [](const Settings& reference) {
-                 return reference.contains("max-edges") ? Values{"5", "off"} : Values{"5"};
+                 Values values = {"1", "2", "3", "5", "9"};
+                 if (reference.contains("max-edges")) values.emplace_back("off");
+                 return values;
              }},
     KnobRule{"ref-tree",
              "tree of the reference: by Morton codes of 30 or 63 bits, or by the surface area heuristic",
@@ -96,13 +98,22 @@ const std::array knob_rules = {
                  return Values{"sah-leaf", "sah", "morton63", "morton30"};
              }},
     KnobRule{"heuristic",
-             "weights of bdpt: balance, or power (squares)",
+             "weights of bdpt: balance, power (squares), or uniform (a known mistake)",
              false,
              "balance",
-             {{"integrator", "bdpt"}},
+             {{"device", "ref"}, {"integrator", "bdpt"}},
              [](const Settings&) {
-                 return Values{"balance", "power"};
+                 return Values{"balance", "power", "uniform"};
              }},
+    KnobRule{
+        "without",
+        "a family of strategies of bdpt that is left out, its weights with it",
+        false,
+        "nothing",
+        {{"device", "ref"}, {"integrator", "bdpt"}},
+        [](const Settings&) {
+            return Values{"nothing", "emission_hit", "next_event", "light_image", "inner_connection"};
+        }},
 };
 
 const KnobRule& rule_of(const std::string& name)
@@ -129,6 +140,10 @@ void drop_idle(Settings& settings)
     };
     if (!is(settings, "device", "host")) drop({"instructions"});
     if (!settings.contains("device") || is(settings, "device", "ref")) drop({"kernel-needs"});
+    if (settings.contains("device") && !is(settings, "device", "ref")) {
+        drop({"without", "roulette-from"});
+        if (is(settings, "heuristic", "uniform")) drop({"heuristic"});
+    }
     if (!is(settings, "integrator", "bdpt")) drop({"heuristic"});
     if (is(settings, "device", "cuda")) drop({"threads"});
 }

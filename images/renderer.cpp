@@ -1,5 +1,7 @@
 #include "images/renderer.h"
 
+#include "images/families.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -8,9 +10,12 @@ namespace images {
 void check(const RenderOptions& options)
 {
     if (options.max_edges < 1) throw std::invalid_argument("a path has at least one edge");
+    if (options.roulette_from < 1)
+        throw std::invalid_argument("roulette begins with the first bounce or a later one");
     if (options.strategies != StrategyPictures::none && options.max_edges > most_edges_of_strategies)
         throw std::invalid_argument("a picture for each strategy needs paths of at most " +
                                     std::to_string(most_edges_of_strategies) + " edges");
+    expect_families(options.integrator, options.families);
 }
 
 std::optional<Batch> Renderer::render_batch(std::uint64_t number, const Monitor& monitor)

@@ -14,8 +14,9 @@
 
 namespace images {
 
-/// Throws std::invalid_argument for a path of no edge, and for pictures of strategies of paths that are
-/// longer than most_edges_of_strategies. For renderers to call.
+/// Throws std::invalid_argument for a path of no edge, for roulette before the first bounce, for
+/// pictures of strategies of paths that are longer than most_edges_of_strategies, and the errors of
+/// expect_families. For renderers to call.
 void check(const RenderOptions& options);
 
 /// Functions by which a caller follows and stops a render. Each may be empty. `progress` and `stop` may

@@ -71,6 +71,18 @@ inline std::uint32_t first_sample_of(std::uint64_t number, std::uint32_t batch_s
     return static_cast<std::uint32_t>(number * batch_size);
 }
 
+/// Throws std::invalid_argument for an option that only the reference has.
+inline void expect_fast_options(const images::RenderOptions& options)
+{
+    const auto refuse = [](const std::string& option) {
+        throw std::invalid_argument("the fast path has no " + option + ": only the reference does");
+    };
+    if (options.roulette_from != bounces_without_roulette + 1)
+        refuse("choice of the first bounce of roulette");
+    if (options.heuristic == images::Heuristic::uniform) refuse("uniform weights");
+    if (!(options.families == images::Families{})) refuse("choice of the families of strategies");
+}
+
 /// Queues the assignment of the default value to all elements, in launches of at most `most`: a large
 /// picture with layers may have more exact sums than an index can count.
 template <class T, Executor E>
@@ -158,6 +170,7 @@ private:
     static images::RenderOptions checked(images::RenderOptions options)
     {
         images::check(options);
+        expect_fast_options(options);
         options.max_edges = std::min(options.max_edges, most_edges);
         return options;
     }

@@ -32,7 +32,7 @@ public:
 /// the bits do not depend on it, except those of splats as floats. Throws std::invalid_argument for
 /// coordinates that are not finite as floats, for lights that floats cannot represent
 /// (scene_arrays.h), for a picture of 0 pixels or of 2^32 or more, and for options that contradict
-/// each other; OutOfMemory.
+/// each other or that only the reference has; OutOfMemory.
 std::unique_ptr<Renderer> host_renderer(const scenes::Scene& scene, int width, int height,
                                         const images::RenderOptions& options, unsigned threads,
                                         InstructionSet instructions = best_instruction_set(),

@@ -1,6 +1,6 @@
-// Shows the defect of uniform weights on glass. The weights 1 / (i + j + 1) of a 2015 course report, for
-// i eye and j light vertices after the first, share every path equally among all strategies, possible or
-// not. They are compared with the right weights and with path tracing.
+// Shows the defect of uniform weights on glass. The weights 1 / (i + j + 1) of a 2015 course report
+// (Heuristic::uniform) share every path equally among all strategies, possible or not. They are compared
+// with the right weights and with path tracing.
 // Usage: figure_uniform_weights --help
 
 #include "docs/figures/program.h"
@@ -43,36 +43,21 @@ Region region_of(const ref::World& world, int x, int y)
     return std::holds_alternative<scenes::Mirror>(material) ? mirror : diffuse;
 }
 
-/// For k edges, the k strategies s = 1 ... k are counted, each with the weight 1 / k. Directly seen
-/// emitters are Case I, with s = 0.
-images::Image with_uniform_weights(const images::StrategySums& unweighted)
-{
-    images::Image sum(width, height);
-    for (const auto& [strategy, image] : unweighted.means()) {
-        const auto [s, t] = strategy;
-        const int k = s + t - 1;
-        const double weight = k == 1 ? (s == 0 ? 1.0 : 0.0) : (s == 0 ? 0.0 : 1.0 / k);
-        for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += weight * image.pixels[i];
-    }
-    return sum;
-}
-
-/// One run of each method. The two weightings use the same paths and differ only in the weights.
+/// One run of each method. The two weightings have the same seed, so they use the same paths and differ
+/// only in the weights.
 std::array<images::Image, methods> rendered(const ref::World& world, std::uint64_t run)
 {
     const unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-    images::RenderOptions options{.seed = run, .max_edges = max_edges};
-    options.strategies = images::StrategyPictures::unweighted;
-    const std::uint64_t batches = samples_per_run / options.batch_size;
-    images::StrategySums unweighted;
-    images::Film bidirectional(width, height);
-    images::fill(
-        bidirectional, batches, *ref::renderer(world, ref::trace_bidirectionally, options, threads), {},
-        [&](const images::Batch& batch) { unweighted.add(batch.strategies, options.batch_size); });
-    images::Film unidirectional(width, height);
-    options = {.seed = run + 1000, .max_edges = max_edges};
-    images::fill(unidirectional, batches, *ref::renderer(world, ref::trace_path, options, threads));
-    return {with_uniform_weights(unweighted), bidirectional.mean(), unidirectional.mean()};
+    const auto mean = [&](ref::Integrator integrator, const images::RenderOptions& options) {
+        images::Film film(width, height);
+        images::fill(film, samples_per_run / options.batch_size,
+                     *ref::renderer(world, integrator, options, threads));
+        return film.mean();
+    };
+    return {mean(ref::trace_bidirectionally,
+                 {.heuristic = images::Heuristic::uniform, .seed = run, .max_edges = max_edges}),
+            mean(ref::trace_bidirectionally, {.seed = run, .max_edges = max_edges}),
+            mean(ref::trace_path, {.seed = run + 1000, .max_edges = max_edges})};
 }
 
 /// Mean over channels of a region's pixels.

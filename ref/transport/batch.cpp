@@ -176,7 +176,8 @@ private:
     const World& world_;
     Integrator integrator_;
     const images::RenderOptions& options_;
-    PathOptions path_{options_.seed, options_.max_edges, options_.roulette, options_.heuristic};
+    PathOptions path_{options_.seed,          options_.max_edges, options_.roulette,
+                      options_.roulette_from, options_.heuristic, options_.families};
     std::uint64_t number_;
     std::vector<Tile> tiles_;
     images::Image sum_; // finally the mean

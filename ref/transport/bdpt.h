@@ -6,7 +6,8 @@ namespace ref {
 
 /// Bidirectional path tracing [Lafortune & Willems 1993; Veach 1997, ch. 10]: one eye walk and one
 /// light walk are joined in every possible way (connect.h). Each path is weighted against all other
-/// strategies that can produce it (mis_weight.h). An Integrator.
+/// strategies that can produce it (mis_weight.h). Families that the options leave out are not computed.
+/// An Integrator.
 void trace_bidirectionally(const World& world, const PathOptions& options, const SampleId& id,
                            std::vector<Contribution>& out);
 

@@ -133,15 +133,14 @@ inline double density_of_delta_lobe(const scenes::Material& material, const Vec3
                          : (1.0 - reflected) * eta_t * eta_t * std::abs(wi_local.z);
 }
 
-/// Bounces up to this one are never ended by roulette.
-inline constexpr int bounces_without_roulette = 4;
-
-/// The probability that a walk goes on from its `bounce`-th bounce (the first is 1). It depends on the
-/// vertex alone and not on the walk that led there, so that the density of a path can be told without
-/// knowing from which end it was walked. Below 1 even on a perfect mirror: every walk ends.
-inline double survival_probability(const scenes::Material& material, int bounce, bool roulette)
+/// The probability that a walk goes on from its `bounce`-th bounce (the first is 1): 1 without roulette,
+/// and before bounce number `roulette_from`. It depends on the vertex alone and not on the walk that led
+/// there, so that the density of a path can be told without knowing from which end it was walked. Below
+/// 1 even on a perfect mirror: every walk ends.
+inline double survival_probability(const scenes::Material& material, int bounce, bool roulette,
+                                   int roulette_from)
 {
-    if (!roulette || bounce <= bounces_without_roulette) return 1.0;
+    if (!roulette || bounce < roulette_from) return 1.0;
     struct {
         double operator()(const scenes::Lambertian& m) const { return max_component(m.albedo); }
         double operator()(const scenes::Mirror& m) const { return max_component(m.reflectance); }

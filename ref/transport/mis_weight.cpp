@@ -19,7 +19,8 @@ double pdf_next(const World& world, const PathOptions& options, const Vertex& pr
     const double pdf_solid_angle = is_delta(material)
                                        ? density_of_delta_lobe(material, wo_local, wi_local)
                                        : pdf_solid_angle_bsdf(material, wo_local, wi_local);
-    const double pdf = pdf_solid_angle * survival_probability(material, bounce, options.roulette);
+    const double pdf = pdf_solid_angle *
+                       survival_probability(material, bounce, options.roulette, options.roulette_from);
     if (next.kind == Vertex::Kind::infinity) return pdf;
     const Vec3 d = next.point.position - vertex.point.position;
     return pdf * cosine(next, w) / glm::dot(d, d); // [Veach 1997, eq. 8.10]
@@ -33,6 +34,13 @@ double pdf_camera(const World& world, const Vertex& eye, const Vertex& next)
     if (next.kind == Vertex::Kind::infinity) return pdf;
     const Vec3 d = next.point.position - eye.point.position;
     return pdf * cosine(next, w) / glm::dot(d, d);
+}
+
+/// The weight of strategy s for a path of k edges by Heuristic::uniform.
+double uniform_weight(std::size_t s, std::size_t k)
+{
+    if (k == 1) return s == 0 ? 1.0 : 0.0;
+    return s == 0 ? 0.0 : 1.0 / static_cast<double>(k);
 }
 
 } // namespace
@@ -85,6 +93,7 @@ std::vector<double> density_quotients(const World& world, const Path& x, const V
 double mis_weight(const World& world, const PathOptions& options, const Path& x, std::size_t s)
 {
     if (!is_possible(world, x, s)) return 0.0;
+    if (options.heuristic == Heuristic::uniform) return uniform_weight(s, x.size() - 1);
     const VertexDensities p = vertex_densities(world, options, x);
     for (std::size_t i = 0; i < x.size(); ++i) // no walk goes along a surface, to within rounding
         if ((i < s ? p.light[i] : p.eye[i]) == 0.0) return 0.0;

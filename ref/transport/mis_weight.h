@@ -36,12 +36,11 @@ bool is_possible(const World& world, const Path& x, std::size_t s);
 /// neighbours has only two factors that differ: p_{i+1} / p_i = p.light[i] / p.eye[i] [Veach 1997, eq.
 /// 10.9]. So a product has no more factors than the distance between the two strategies. The full
 /// products p_i of a long path would overflow or underflow, in any unit of length.
-/// would leave the range of doubles.
 std::vector<double> density_quotients(const World& world, const Path& x, const VertexDensities& p,
                                       std::size_t s);
 
 /// The weight of strategy s for the path, 0 ... 1: exactly 0 where it is not possible. The weights of
-/// all strategies add up to 1.
+/// all strategies add up to 1, except by Heuristic::uniform.
 double mis_weight(const World& world, const PathOptions& options, const Path& x, std::size_t s);
 
 } // namespace ref

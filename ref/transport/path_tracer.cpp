@@ -36,9 +36,10 @@ void add_next_event(const World& world, const PathOptions& options, const Sample
     const Rgb f = evaluate_bsdf(material, wo_local, wi_local);
     if (f == Rgb(0.0) || !visible(world.geometry, point, *light)) return;
 
-    const double pdf_hit = light->delta ? 0.0
-                                        : pdf_solid_angle_bsdf(material, wo_local, wi_local) *
-                                              survival_probability(material, j, options.roulette);
+    const double pdf_hit =
+        light->delta ? 0.0
+                     : pdf_solid_angle_bsdf(material, wo_local, wi_local) *
+                           survival_probability(material, j, options.roulette, options.roulette_from);
     const Rgb value = walk.throughput * f * std::abs(wi_local.z) * light->radiance / light->pdf;
     out.push_back({id.pixel, 1, j + 1, value, light->pdf / (light->pdf + pdf_hit)});
 }
@@ -51,18 +52,21 @@ void trace_path(const World& world, const PathOptions& options, const SampleId& 
     const Ray first = camera_ray(world, id);
     // A directly seen emitter has no other strategy in this integrator, so its hit counts as a delta.
     Walk walk{first, first.origin, Rgb(1.0), 0.0, true};
+    const images::Families& families = options.families;
+    // The last vertex of a path of max_edges edges can only be an emission hit.
+    const int last = families.emission_hit ? options.max_edges : options.max_edges - 1;
 
-    for (int j = 1; j <= options.max_edges; ++j) { // the edge from z_{j-1} to z_j
+    for (int j = 1; j <= last; ++j) { // the edge from z_{j-1} to z_j
         const auto hit = intersect(world.geometry, walk.ray);
         if (!hit) {
-            if (world.scene.environment)
+            if (families.emission_hit && world.scene.environment)
                 out.push_back({id.pixel, 0, j + 1, walk.throughput * *world.scene.environment,
                                weight_of_hit(walk, pdf_solid_angle_environment(world.emitters))});
             return;
         }
         const SurfacePoint point = surface_point(world.geometry, walk.ray, *hit);
         const Vec3 wo = -walk.ray.direction;
-        const Rgb emitted = emitted_radiance(world.scene, point, wo);
+        const Rgb emitted = families.emission_hit ? emitted_radiance(world.scene, point, wo) : Rgb(0.0);
         if (emitted != Rgb(0.0))
             out.push_back(
                 {id.pixel, 0, j + 1, walk.throughput * emitted,
@@ -72,12 +76,13 @@ void trace_path(const World& world, const PathOptions& options, const SampleId& 
         const auto& material = world.scene.materials[point.material];
         const Frame frame(point.normal);
         const Vec3 wo_local = frame.to_local(wo);
-        if (!is_delta(material))
+        if (families.next_event && !is_delta(material))
             add_next_event(world, options, id, j, point, frame, wo_local, walk, out);
 
         const Uniforms u = uniforms(id, Event::eye_bounce, static_cast<std::uint32_t>(j));
         const BsdfSample bounce = sample_bsdf(material, wo_local, u, Transport::radiance);
-        const double survival = survival_probability(material, j, options.roulette);
+        const double survival =
+            survival_probability(material, j, options.roulette, options.roulette_from);
         if (bounce.value == Rgb(0.0) || u[3] >= survival) return;
 
         const Vec3 wi = glm::normalize(frame.to_world(bounce.wi_local));

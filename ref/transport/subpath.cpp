@@ -26,7 +26,8 @@ void walk(const World& world, const PathOptions& options, const SampleId& id, Tr
         const Frame frame(point.normal);
         const Uniforms u = uniforms(id, event, static_cast<std::uint32_t>(bounce));
         const BsdfSample sample = sample_bsdf(material, frame.to_local(-ray.direction), u, carried);
-        const double survival = survival_probability(material, bounce, options.roulette);
+        const double survival =
+            survival_probability(material, bounce, options.roulette, options.roulette_from);
         if (u[3] >= survival) return;
         const Vec3 wi = glm::normalize(frame.to_world(sample.wi_local));
         ray = {leave_surface(point, wi), wi};
@@ -47,6 +48,7 @@ std::vector<Vertex> eye_subpath(const World& world, const PathOptions& options, 
 std::vector<Vertex> light_subpath(const World& world, const PathOptions& options, const SampleId& id,
                                   std::size_t max_vertices)
 {
+    if (max_vertices == 0) return {};
     const auto emission = sample_emission(world, uniforms(id, Event::emission_position),
                                           uniforms(id, Event::emission_direction));
     if (!emission) return {};

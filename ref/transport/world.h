@@ -59,7 +59,9 @@ struct PathOptions {
     std::uint64_t seed = 0;
     int max_edges = unlimited_edges; // of a path, the camera's included; at least 1
     bool roulette = true;            // unbiased either way; with none, max_edges must bound the paths
+    int roulette_from = 5;           // the first bounce of a walk that roulette may end; at least 1
     Heuristic heuristic = Heuristic::balance; // of bidirectional path tracing
+    images::Families families = {};           // those that contribute; they do not change the weights
 };
 
 /// The contribution of one path to one pixel. The path has s vertices from the light and t from the eye

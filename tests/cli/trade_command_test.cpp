@@ -2,6 +2,7 @@
 // there is none; it can be interrupted and go on; and it refuses bad input in one line.
 
 #include "golden/golden.h"
+#include "images/exr.h"
 #include "tests/cli/run_program.h"
 
 #include <gtest/gtest.h>
@@ -82,6 +83,59 @@ TEST(TradeCommand, FindsTheBiasOfShortPathsInTheIntegratingSphere)
     EXPECT_EQ(verdict(results, "base"), "none found");
     // Longer than the truth: not measured.
     EXPECT_EQ(results.dump().find("max-edges=10"), std::string::npos);
+}
+
+// Uniform weights count strategies that cannot happen: through glass they lack light.
+TEST(TradeCommand, FindsThatUniformWeightsAreBiasedWhereThereIsGlassOnly)
+{
+    const Arguments options = {"--seconds", "6", "--rounds", "4", "--knobs", "heuristic=uniform"};
+    const auto uniform = [&](const char* scene) {
+        const Json results = results_of(trade(scene, options));
+        for (const Json& one : results.at("configurations"))
+            if (one.at("value") == "uniform") return one.at("bias").at("verdict").get<std::string>();
+        return std::string("not measured");
+    };
+    EXPECT_EQ(uniform("cornell_glass"), "biased");
+    EXPECT_EQ(uniform("cornell_diffuse"), "none found");
+}
+
+// A family that is left out takes its weighted layer with it: the picture is biased exactly where the
+// layer is not black. Over a plane a point light is not hit, and nothing joins two points of the plane.
+TEST(TradeCommand, FindsWhichFamiliesCarryLight)
+{
+    TemporaryFolder folder;
+    for (const char* scene : {"point_over_plane", "area_light_over_plane"}) {
+        const std::string layers = (folder / "layers.exr").string();
+        ASSERT_EQ(run({"render", scene_file(scene), "-o", (folder / "a.exr").string(), "--strategies",
+                       layers, "--integrator", "bdpt", "--max-edges", "6", "--size", "16x16", "-q"})
+                      .status,
+                  0);
+        const images::Layers pictures = images::read_exr(layers).layers;
+        const auto carries_light = [&](const std::string& family) {
+            for (const auto& [layer, picture] : pictures) {
+                int s = 0;
+                int t = 0;
+                if (std::sscanf(layer.c_str(), "s%dt%d", &s, &t) != 2) continue;
+                const std::string of_layer = t == 1   ? "light_image"
+                                             : s == 0 ? "emission_hit"
+                                             : s == 1 ? "next_event"
+                                                      : "inner_connection";
+                if (of_layer == family && picture != images::Image(16, 16)) return true;
+            }
+            return false;
+        };
+        const Json results =
+            results_of(trade(scene, {"--seconds", "4", "--rounds", "4", "--knobs", "without"}));
+        int found = 0;
+        for (const Json& one : results.at("configurations")) {
+            const std::string family = one.at("value");
+            if (one.at("knob") != "without" || family == "nothing") continue;
+            EXPECT_EQ(one.at("bias").at("verdict") == "biased", carries_light(family))
+                << scene << " without " << family;
+            ++found;
+        }
+        EXPECT_EQ(found, 4);
+    }
 }
 
 TEST(TradeCommand, StatesTimesMemoryAndCommandsOfEachConfiguration)

@@ -44,7 +44,8 @@ std::vector<NextStep> next_steps(const Setting& setting, ref::Transport carried,
     const ref::Frame frame(point.normal);
     const Vec3 wo = frame.to_local(Vec3(vertex.wo));
     if (std::abs(wo.z) <= cosine_error) throw Undecided("the side that a walk comes from");
-    const double survival = ref::survival_probability(material, vertex.n, setting.options.roulette);
+    const double survival = ref::survival_probability(material, vertex.n, setting.options.roulette,
+                                                      setting.options.roulette_from);
     if (survival < 1 && std::abs(u[3] - survival) <= roundoff) throw Undecided("roulette");
     if (u[3] >= survival) return {};
 

@@ -115,7 +115,8 @@ double PathJudge::path_tracing_weight(const JoinedPath& x, std::size_t s) const
     const double by_hit =
         ref::pdf_solid_angle_bsdf(material, frame.to_local(direction(last, *x.vertices[2])),
                                   frame.to_local(direction(last, light))) *
-        ref::survival_probability(material, bounce, setting_.options.roulette);
+        ref::survival_probability(material, bounce, setting_.options.roulette,
+                                  setting_.options.roulette_from);
     const double by_event =
         light.kind == Vertex::Kind::infinity
             ? pdf_solid_angle_environment(world.emitters)

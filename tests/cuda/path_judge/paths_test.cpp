@@ -161,7 +161,11 @@ TEST_P(PathsInFloatOf, AreThoseOfTheReference)
                  {fast::Integrator::bdpt, fast::Integrator::path, fast::Integrator::light})
                 for (std::uint32_t i = 0; i < count; ++i) {
                     const auto heuristic = i % 4 == 3 ? ref::Heuristic::power : ref::Heuristic::balance;
-                    const Job job{integrator, {7, max_edges, roulette, heuristic}};
+                    const Job job{integrator,
+                                  {.seed = 7,
+                                   .max_edges = max_edges,
+                                   .roulette = roulette,
+                                   .heuristic = heuristic}};
                     try {
                         wings.judge(job, 5 * sample % (width * height), sample, tally);
                     } catch (const Disagreement& why) {

@@ -262,6 +262,20 @@ TEST(BatchRenderer, StopsBetweenLaunchesAndGoesOnAsIfNothingHadBeen)
     EXPECT_TRUE(renderer.render_batch(2, {})->mean == whole);
 }
 
+TEST(BatchRenderer, RefusesOptionsThatOnlyTheReferenceHas)
+{
+    const auto scene = our_scene("cornell_diffuse");
+    const auto refusal = [&](const images::RenderOptions& options) {
+        return refusal_of([&] { (void)fast::host_renderer(scene, 8, 8, options, 1); });
+    };
+    EXPECT_EQ(refusal({.roulette_from = 4}),
+              "the fast path has no choice of the first bounce of roulette: only the reference does");
+    EXPECT_EQ(refusal({.heuristic = images::Heuristic::uniform}),
+              "the fast path has no uniform weights: only the reference does");
+    EXPECT_EQ(refusal({.families = {.light_image = false}}),
+              "the fast path has no choice of the families of strategies: only the reference does");
+}
+
 TEST(BatchRenderer, RefusesOptionsThatContradictEachOther)
 {
     const auto scene = our_scene("cornell_diffuse");

@@ -190,10 +190,14 @@ TEST(Roulette, StartsAfterTheFourthBounceAndNeverKeepsAWalkForCertain)
 {
     const scenes::Material white = scenes::Mirror{Rgb(1.0)};
     const scenes::Material red = scenes::Lambertian{Rgb(0.6, 0.1, 0.1)};
-    for (int bounce = 1; bounce <= 4; ++bounce) EXPECT_EQ(survival_probability(red, bounce, true), 1.0);
-    EXPECT_EQ(survival_probability(red, 5, true), 0.6);
-    EXPECT_LT(survival_probability(white, 5, true), 1.0);
-    EXPECT_EQ(survival_probability(red, 5, false), 1.0);
+    for (int bounce = 1; bounce <= 4; ++bounce)
+        EXPECT_EQ(survival_probability(red, bounce, true, 5), 1.0);
+    EXPECT_EQ(survival_probability(red, 5, true, 5), 0.6);
+    EXPECT_LT(survival_probability(white, 5, true, 5), 1.0);
+    EXPECT_EQ(survival_probability(red, 5, false, 5), 1.0);
+    EXPECT_EQ(survival_probability(red, 1, true, 1), 0.6);
+    EXPECT_EQ(survival_probability(red, 7, true, 8), 1.0);
+    EXPECT_EQ(survival_probability(red, 8, true, 8), 0.6);
 }
 
 } // namespace

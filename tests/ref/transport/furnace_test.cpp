@@ -9,6 +9,9 @@
 
 #include <glm/exponential.hpp>
 
+#include <numbers>
+#include <string>
+
 namespace {
 
 using ref::Contribution;
@@ -43,25 +46,56 @@ TEST(FurnaceBySample, EveryWalkBringsHomeTheWholeSky)
                                      });
 }
 
-// With roulette, the probability to survive a bounce, from the fifth on, is at most 0.95 (on white,
-// exactly 0.95), and the weight of a walk that survives must grow accordingly.
+// With roulette, the probability to survive a bounce, from the first one that it may end, is at most
+// 0.95 (on white, exactly 0.95), and the weight of a walk that survives must grow accordingly.
 TEST(FurnaceBySample, WhatSurvivesRouletteBringsTheOthersShare)
 {
     const scenes::Scene scene = transport_test::our_scene("furnace");
     const ref::World world(scene, 24, 16);
-    int walks = 0;
-    int long_walks = 0;
-    transport_test::for_every_sample(
-        world, ref::trace_path, {.seed = 32}, 8, [&](const Line&, const std::vector<Contribution>& all) {
-            ++walks;
-            for (const Contribution& c : all) {
-                if (c.s != 0) continue;
-                const int risked = std::max(0, c.t - 2 - 4);
-                ASSERT_NEAR(c.value.x / scene.environment->x * std::pow(0.95, risked), 1.0, 1e-12);
-                long_walks += risked > 0 ? 1 : 0;
+    for (const int from : {1, 5, 8}) {
+        int walks = 0;
+        int long_walks = 0;
+        transport_test::for_every_sample(
+            world, ref::trace_path, {.seed = 32, .roulette_from = from}, 8,
+            [&](const Line&, const std::vector<Contribution>& all) {
+                ++walks;
+                for (const Contribution& c : all) {
+                    if (c.s != 0) continue;
+                    const int risked = std::max(0, c.t - 2 - (from - 1));
+                    ASSERT_NEAR(c.value.x / scene.environment->x * std::pow(0.95, risked), 1.0, 1e-12);
+                    long_walks += risked > 0 ? 1 : 0;
+                }
+            });
+        EXPECT_GT(long_walks, from == 8 ? walks / 200 : walks / 50) << from;
+    }
+}
+
+// However early or late roulette begins, the mean is the same: the walls of a sphere with albedo rho and
+// a point light, whose light of k edges is rho^(k-1) I / (pi R^2) everywhere (closed_form_test.cpp).
+TEST_P(Furnace, TheFirstBounceThatRouletteMayEndDoesNotChangeTheMean)
+{
+    const scenes::Scene scene = transport_test::our_scene("integrating_sphere");
+    const auto& wall = scene.spheres.at(0);
+    const auto& light = scene.point_lights.at(0);
+    const Rgb rho = std::get<scenes::Lambertian>(scene.materials[wall.material]).albedo;
+    const ref::World world(scene, 24, 24);
+    for (const int from : {1, 8}) {
+        const auto batches =
+            transport_test::estimate(world, GetParam().integrator,
+                                     {.batches = 32,
+                                      .batch_size = GetParam().samples(12),
+                                      .path = {.seed = 39, .max_edges = 6, .roulette_from = from}},
+                                     7, by_edges);
+        for (int k = 3; k <= 6; ++k)
+            for (int channel = 0; channel < 3; ++channel) {
+                SCOPED_TRACE(std::to_string(from) + ", " + std::to_string(k) + " edges");
+                transport_test::expect_mean(transport_test::measure(batches[static_cast<std::size_t>(k)],
+                                                                    {0, 0, 24, 24}, channel),
+                                            std::pow(rho[channel], k - 1) * light.intensity[channel] /
+                                                (std::numbers::pi * wall.radius * wall.radius),
+                                            GetParam().bias(0.05));
             }
-        });
-    EXPECT_GT(long_walks, walks / 50);
+    }
 }
 
 TEST_P(Furnace, WhiteObjectsCannotBeSeen)

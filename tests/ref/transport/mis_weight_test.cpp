@@ -79,6 +79,12 @@ double expected_weight(const Judgement& judgement, std::size_t s, ref::Heuristic
     return 1.0 / sum;
 }
 
+/// The first bounce that roulette may end: as early as possible, the default, or later.
+int any_first_risk()
+{
+    return *rc::gen::element(1, 2, 5, 8);
+}
+
 /// Checks every weight of the path, and their sum.
 void check_weights(const ref::World& world, ref::PathOptions options, const ref::Path& x,
                    const Judgement& judgement)
@@ -228,7 +234,7 @@ void check_scene(const scenes::Scene& scene, const ref::PathOptions& options, st
                  Tally& tally)
 {
     const ref::World world(scene, width, height);
-    const PathOracle oracle(scene, width, height, options.roulette);
+    const PathOracle oracle(scene, width, height, options.roulette, options.roulette_from);
     const auto longest = static_cast<std::size_t>(options.max_edges);
     for (std::uint32_t i = 0; i < samples; ++i) {
         const ref::SampleId id{options.seed, i % (width * height), i};
@@ -257,6 +263,7 @@ RC_GTEST_PROP(MisWeight, EveryContributionIsThroughputOverDensityTimesItsShare, 
     ref::PathOptions options{.seed = *transport_test::any_word(),
                              .max_edges = static_cast<int>(transport_test::any_number(1.0, 10.0))};
     options.roulette = transport_test::any_chance(0.7);
+    options.roulette_from = any_first_risk();
     if (transport_test::any_chance(0.3)) options.heuristic = ref::Heuristic::power;
     Tally tally;
     check_scene(scene, options, 40, tally);
@@ -341,7 +348,8 @@ RC_GTEST_PROP(MisWeight, AnyPointsMakeAPathWhoseWeightsAreTheDefinitions, ())
         if (material_of(scene, i) <= transport_test::grey) scattering.push_back(i);
 
     const bool roulette = transport_test::any_chance(0.7);
-    const PathOracle oracle(scene, width, height, roulette);
+    const int roulette_from = any_first_risk();
+    const PathOracle oracle(scene, width, height, roulette, roulette_from);
     for (int repeat = 0; repeat < 20; ++repeat) {
         std::vector<Vertex> y = {any_emitter_vertex(world)};
         const int inner = static_cast<int>(transport_test::any_number(0.0, 9.0));
@@ -355,7 +363,8 @@ RC_GTEST_PROP(MisWeight, AnyPointsMakeAPathWhoseWeightsAreTheDefinitions, ())
         if (oracle.pixel_of(x[x.size() - 2]) < 0) continue;
         const Judgement judgement = oracle.judge(x);
         if (!(judgement.condition < worst_condition) || !carries_light(judgement)) continue;
-        check_weights(world, {.roulette = roulette}, path_of(y, {&eye, 1}), judgement);
+        check_weights(world, {.roulette = roulette, .roulette_from = roulette_from},
+                      path_of(y, {&eye, 1}), judgement);
     }
 }
 

@@ -50,7 +50,7 @@ Vec3 PathOracle::normal(const Place& place) const
 
 double PathOracle::survival(const Place& place, std::size_t bounce) const
 {
-    if (!roulette_ || bounce < 5) return 1.0; // the first four bounces are without roulette
+    if (!roulette_ || static_cast<int>(bounce) < roulette_from_) return 1.0;
     double albedo = 0.0;
     if (const auto* l = std::get_if<scenes::Lambertian>(&material(place))) albedo = largest(l->albedo);
     if (const auto* m = std::get_if<scenes::Mirror>(&material(place))) albedo = largest(m->reflectance);

@@ -63,7 +63,8 @@ struct Share {
 
 class PathOracle {
 public:
-    PathOracle(const scenes::Scene& scene, int width, int height, bool roulette);
+    /// `roulette_from`: the first bounce that roulette may end.
+    PathOracle(const scenes::Scene& scene, int width, int height, bool roulette, int roulette_from = 5);
 
     /// Whether a light walk and an eye walk can be joined between x_{s-1} and x_s; for s = 0, whether
     /// the eye walk can hit x_0.
@@ -101,6 +102,7 @@ private:
     const scenes::Scene& scene_;
     int width_, height_;
     bool roulette_;
+    int roulette_from_;
     double tan_x_, tan_y_; // of half the picture
     double radius_;        // of the ball around the scene's box
     std::vector<Share> shares_;

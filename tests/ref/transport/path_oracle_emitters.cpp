@@ -49,8 +49,9 @@ void share_out(std::vector<Share>& shares)
 
 } // namespace
 
-PathOracle::PathOracle(const scenes::Scene& scene, int width, int height, bool roulette)
-    : scene_(scene), width_(width), height_(height), roulette_(roulette)
+PathOracle::PathOracle(const scenes::Scene& scene, int width, int height, bool roulette,
+                       int roulette_from)
+    : scene_(scene), width_(width), height_(height), roulette_(roulette), roulette_from_(roulette_from)
 {
     const double tan_half = std::tan(scene.camera->fov / 2.0);
     const bool horizontal = scene.camera->fov_axis == scenes::FovAxis::horizontal;
