@@ -27,11 +27,12 @@ std::string page(const nlohmann::ordered_json& results)
     const std::string data = images::script_data(
         results.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
     return images::fill(page_parts::html,
-                        std::array<images::Mark, 8>{{{"@TITLE@", title},
+                        std::array<images::Mark, 9>{{{"@TITLE@", title},
                                                      {"@STYLE@", page_parts::style},
                                                      {"@D3@", page_parts::d3},
                                                      {"@DATA@", data},
                                                      {"@BASICS@", page_parts::basics},
+                                                     {"@LABELS@", page_parts::labels},
                                                      {"@MAIN_PLOT@", page_parts::main_plot},
                                                      {"@KNOB_PLOTS@", page_parts::knob_plots},
                                                      {"@TABLES@", page_parts::tables}}});

@@ -43,16 +43,16 @@ function number(x, digits = 3) {
   if (x === 0) return "0";
   const rounded = Number(x.toPrecision(digits));
   const exponent = Math.floor(Math.log10(Math.abs(rounded)));
-  if (exponent < -3 || exponent > 5) return minus((rounded / 10 ** exponent).toFixed(digits - 1)) + " × 10" + raised(exponent);
+  if (exponent < -3 || exponent > 5) return minus((rounded / 10 ** exponent).toFixed(digits - 1)) + "\u00a0×\u00a010" + raised(exponent);
   return minus(rounded.toFixed(Math.max(0, digits - 1 - exponent)));
 }
 function withUnit(x, units) { // the largest unit that leaves at least 1
   if (!finite(x)) return none;
   const [factor, unit] = units.find(([f]) => Math.abs(x) >= f * 0.9995) ?? units[units.length - 1];
-  return number(x / factor) + " " + unit;
+  return number(x / factor) + "\u00a0" + unit; // which a line does not break
 }
 const seconds = x => withUnit(x, [[1, "s"], [1e-3, "ms"], [1e-6, "µs"], [1e-9, "ns"]]);
-const shortSeconds = x => seconds(x).replace(/(\.\d*?)0+ /, "$1 ").replace(". ", " ");
+const shortSeconds = x => seconds(x).replace(/(\.\d*?)0+\u00a0/, "$1\u00a0").replace(".\u00a0", "\u00a0");
 const bytes = x => withUnit(x, [[2 ** 30, "GiB"], [2 ** 20, "MiB"], [2 ** 10, "KiB"], [1, "B"]]);
 const times = x => finite(x) ? number(x) + "×" : none;
 function percent(x) { // with a sign: for errors
@@ -80,7 +80,7 @@ function addMark(parent, kind, size = 1) { // at the origin of `parent`; hollow 
 /// Ticks of a logarithmic scale that have room for labels.
 function logTicks([low, high]) {
   const decades = Math.log10(high / low);
-  const mantissas = decades > 2.6 ? [1] : decades > 1.3 ? [1, 3] : decades > 0.6 ? [1, 2, 5] : [1, 1.5, 2, 3, 4, 5, 6, 8];
+  const mantissas = decades > 2 ? [1] : decades > 1.8 ? [1, 3] : decades > 0.6 ? [1, 2, 5] : [1, 1.5, 2, 3, 4, 5, 6, 8];
   const ticks = [];
   for (let e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); ++e)
     for (const m of mantissas) ticks.push(Number(`${m}e${e}`));
@@ -96,12 +96,12 @@ function addFacts() {
     machine?.processor && `${machine.processor}${finite(machine.threads) ? `, ${machine.threads} thread${machine.threads === 1 ? "" : "s"}` : ""}`]));
   if (results.command) add("command", element("code", {}, results.command));
   add("measured", join([finite(results.width) && finite(results.height) && `${results.width} × ${results.height} pixels`,
-    finite(results.rounds) && `${results.rounds} rounds`, finite(results.seconds) && `${number(results.seconds)} s in all`,
+    finite(results.rounds) && `${results.rounds} rounds`, finite(results.seconds) && `${results.seconds} s in all`,
     finite(results.seed) && `seed ${results.seed}`, finite(results.confidence) && `intervals of ${number(100 * results.confidence, 2)}%`,
     scene?.hash && `scene ${scene.hash}`]));
   if (truth) add("truth", join([truth.source, finite(truth.samples) && `${truth.samples} samples per pixel`,
     finite(truth.relmse) && `its own relMSE ${number(truth.relmse, 2)}`,
-    finite(truth.whole_error) && `of its mean ${unsigned(truth.whole_error)}`]));
+    finite(truth.whole_error) && `its mean known within ${unsigned(truth.whole_error)}`]));
   const times = results.noise_of_machine;
   if (times?.sentence) add("times", times.sentence);
 }
@@ -110,14 +110,15 @@ function addLead() {
   const lead = byId("lead");
   lead.append(`${count(measured.length, "configuration")} of the renderer, measured for speed, noise and bias.`);
   const front = (results.front ?? []).filter(f => f && f.configuration);
+  const biased = f => measured.some(c => c.name === f.configuration && kindOf(c) === "biased");
   front.forEach((f, i) => {
     const from = finite(f.from) ? shortSeconds(f.from) : "0 s", to = finite(f.to) ? shortSeconds(f.to) : "";
     const when = front.length === 1 ? " at any time measured" : i === front.length - 1 ? ` after ${from}` : ` from ${from} to ${to}`;
-    lead.append(i === 0 ? " The least error has " : i === front.length - 1 ? " and " : ", ", element("b", {}, f.configuration), when);
+    lead.append(i === 0 ? " The least error has " : i === front.length - 1 ? " and " : ", ", element("b", {}, f.configuration), biased(f) ? " (biased)" : "", when);
   });
   if (front.length) lead.append(".");
-  const biased = measured.filter(c => kindOf(c) === "biased").length, failed = configurations.length - measured.length;
-  if (biased) lead.append(` ${count(biased, "configuration")} ${biased === 1 ? "is" : "are"} biased.`);
+  const wrong = measured.filter(c => kindOf(c) === "biased").length, failed = configurations.length - measured.length;
+  if (wrong) lead.append(` ${count(wrong, "configuration")} ${wrong === 1 ? "is" : "are"} biased.`);
   if (failed) lead.append(` ${count(failed, "configuration")} could not be measured.`);
 }
 function showNotices() {

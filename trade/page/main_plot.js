@@ -7,8 +7,9 @@ function logRange(estimates) {
   const values = estimates.map(e => e.value);
   const low = Math.min(...values), high = Math.max(...values);
   const ends = estimates.flatMap(e => [Math.max(e.low, low / 4), Math.min(e.high, high * 4)]);
-  const room = Math.pow(high / low, 0.06) * 1.25;
-  return [Math.min(low, ...ends) / room, Math.max(high, ...ends) * room];
+  const from = Math.min(low, ...ends), to = Math.max(high, ...ends);
+  const room = Math.max(Math.pow(to / from, 0.06) * 1.25, Math.sqrt(4 * from / to)); // a factor of at least 4 in all
+  return [from / room, to * room];
 }
 
 function drawMainPlot() {
@@ -24,7 +25,7 @@ function drawMainPlot() {
     .attr("width", width - left - right).attr("height", height - top - bottom);
   drawAxes(svg, x, y);
   const taken = drawEqualLines(svg, x, y);
-  drawFront(svg, x, y);
+  taken.push(...drawFront(svg, x, y));
   const symbols = drawSymbols(svg, x, y, points);
   drawLabels(svg, x, y, points, taken);
   addPicking(svg, x, y, points, symbols);
@@ -41,7 +42,7 @@ function drawAxes(svg, x, y) {
   }
   for (const t of logTicks(y.domain())) {
     axes.append("line").attr("class", "grid").attr("x1", left).attr("x2", width - right).attr("y1", y(t)).attr("y2", y(t));
-    axes.append("text").attr("x", left - 8).attr("y", y(t) + 4).attr("text-anchor", "end").text(t >= 0.01 && t < 1000 ? number(t, 1) : power(t));
+    axes.append("text").attr("x", left - 8).attr("y", y(t) + 4).attr("text-anchor", "end").text(power(t));
   }
   axes.append("path").attr("d", `M${left},${top}V${height - bottom}H${width - right}`);
   axes.append("text").attr("class", "title").attr("x", (left + width - right) / 2).attr("y", height - 10).attr("text-anchor", "middle")
@@ -55,8 +56,9 @@ function drawAxes(svg, x, y) {
 function drawEqualLines(svg, x, y) {
   const [x0, x1] = x.domain(), [y0, y1] = y.domain();
   const through = timeFor(base, samples).value * errorAt(base, samples).value;
+  if (!(through > 0)) return [];
   const span = Math.log(x1 * y1 / (x0 * y0));
-  const step = [2, 4, 10, 100, 1000, 1e6].find(s => span / Math.log(s) <= 12) ?? 1e9;
+  const step = [2, 10, 100, 1000, 1e6].find(s => span / Math.log(s) <= 8) ?? 1e9;
   const group = svg.append("g"), boxes = [];
   for (let k = -12; k <= 12; ++k) {
     const product = through * step ** k;
@@ -67,7 +69,7 @@ function drawEqualLines(svg, x, y) {
     group.append("line").attr("class", "equal").attr("x1", a.x).attr("y1", a.y).attr("x2", b.x).attr("y2", b.y);
     const length = Math.hypot(b.x - a.x, b.y - a.y), angle = Math.atan2(b.y - a.y, b.x - a.x);
     if (length < 130) continue;
-    const label = k === 0 ? "as efficient as the base" : k < 0 ? `${number(step ** -k, 1)}×` : `1/${number(step ** k, 1)}`;
+    const label = k === 0 ? "as efficient as the base" : k < 0 ? `${step ** -k}×` : `1/${step ** k}`;
     const at = 14 / length; // near the upper end
     const place = { x: a.x + (b.x - a.x) * at, y: a.y + (b.y - a.y) * at };
     const text = group.append("text").attr("class", "small").attr("dy", -4).text(label)
@@ -79,10 +81,10 @@ function drawEqualLines(svg, x, y) {
   return boxes;
 }
 
-/// The Pareto front: the configuration with the least error after each time.
+/// The Pareto front: the configuration with the least error after each time. Returns boxes along it.
 function drawFront(svg, x, y) {
   const group = svg.append("g").attr("clip-path", "url(#inside)");
-  const [begin, end] = x.domain(), [, largest] = y.domain();
+  const [begin, end] = x.domain(), unlimited = y.copy().clamp(false), far = 10 * plotBox.height;
   const line = [];
   for (const part of results.front ?? []) {
     const c = measured.find(m => m.name === part?.configuration);
@@ -90,10 +92,11 @@ function drawFront(svg, x, y) {
     const from = Math.max(begin, finite(part.from) ? part.from : begin), to = Math.min(end, finite(part.to) ? part.to : end);
     for (let i = 0; i <= 80 && from < to; ++i) {
       const t = from * Math.pow(to / from, i / 80), error = errorAfter(c, t);
-      if (error > 0 && error < largest) line.push([x(t), y(error)]);
+      if (error > 0) line.push([x(t), Math.max(-far, Math.min(far, unlimited(error)))]);
     }
   }
   if (line.length) group.append("path").attr("class", "front").attr("d", "M" + line.join("L"));
+  return line.map(([px, py]) => ({ ...boxAround(px, py, 4, 4), thin: true }));
 }
 
 function drawSymbols(svg, x, y, points) {
@@ -112,44 +115,6 @@ function drawSymbols(svg, x, y, points) {
     symbols.set(p, g);
   }
   return symbols;
-}
-
-// ---- labels where there is room
-const boxAround = (x, y, w, h) => ({ left: x - w, right: x + w, top: y - h, bottom: y + h });
-const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
-
-function drawLabels(svg, x, y, points, taken) {
-  const { width, height, left, right, top, bottom } = plotBox;
-  for (const p of points) {
-    p.at = [x(p.x.value), y(p.y.value)];
-    taken.push(boxAround(...p.at, 8, 8));
-    taken.push({ left: x(p.x.low), right: x(p.x.high), top: p.at[1] - 1, bottom: p.at[1] + 1 });
-    taken.push({ left: p.at[0] - 1, right: p.at[0] + 1, top: y(p.y.high), bottom: y(Math.max(p.y.low, y.domain()[0])) });
-  }
-  const rank = p => p.c.base ? 0 : p.c.front ? 1 : p.kind === "biased" ? 2 : p.kind === "undecided" ? 3 : 4;
-  const group = svg.append("g");
-  for (const p of [...points].sort((a, b) => rank(a) - rank(b))) {
-    const text = group.append("text").attr("class", "label").text(p.c.name).datum(p);
-    const w = text.node().getComputedTextLength(), h = 15, [px, py] = p.at;
-    const place = labelPlaces(w, h).map(([dx, dy]) => ({ left: px + dx, right: px + dx + w, top: py + dy - h / 2, bottom: py + dy + h / 2 }))
-      .find(b => b.left > left + 4 && b.right < width - right && b.top > top && b.bottom < height - bottom - 2 && !taken.some(t => overlap(b, t)));
-    if (!place) { text.remove(); continue; } // it is shown when the symbol is picked
-    taken.push(place);
-    text.attr("x", place.left).attr("y", place.top + 12);
-    const far = { x: Math.max(place.left, Math.min(px, place.right)), y: Math.max(place.top + 2, Math.min(py, place.bottom - 2)) };
-    if (Math.hypot(far.x - px, far.y - py) > 22)
-      group.insert("line", ":first-child").attr("class", "leader").datum(p)
-        .attr("x1", px + (far.x - px) * 0.25).attr("y1", py + (far.y - py) * 0.25).attr("x2", far.x).attr("y2", far.y);
-  }
-}
-
-/// Places for a label of w by h beside a symbol, the best first: its left side and its middle from the symbol.
-function labelPlaces(w, h) {
-  const places = [[12, 0], [-12 - w, 0], [10, -13], [10, 13], [-10 - w, -13], [-10 - w, 13], [-w / 2, -18], [-w / 2, 18]];
-  for (const r of [30, 44, 60])
-    for (const angle of [-0.5, 0.5, -2.6, 2.6, -1, 1, -2.1, 2.1])
-      places.push([r * Math.cos(angle) - (Math.cos(angle) < 0 ? w : 0), r * Math.sin(angle)]);
-  return places;
 }
 
 // ---- the numbers of one symbol
@@ -185,7 +150,7 @@ function tipContent({ c, kind, x, y }) {
   const row = (name, text) => element("tr", {}, element("td", {}, name), element("td", {}, text));
   const rows = [row("verdict", kinds[kind]), row("time", withRange(x, seconds)), row("error", withRange(y, number)),
     row("its noise part", withRange(scaled(c.noise, 1 / samples), number)), row("error of the mean", withRange(c.bias?.whole, percent))];
-  if (estimate(c.time_to_equal_error)) rows.push(row("time to equal error", withRange(c.time_to_equal_error, times) + " of the base"));
+  if (estimate(c.time_to_equal_error)) rows.push(row("time to equal noise", withRange(c.time_to_equal_error, times) + " of the base"));
   rows.push(row("efficiency", withRange(c.efficiency, number)));
   if (c.skewed) rows.push(row("caution", "the noise is heavy-tailed: its interval is not reliable"));
   return [element("strong", {}, c.name), element("span", { class: "mono" }, c.command ?? ""), element("table", {}, ...rows)];
@@ -208,5 +173,6 @@ function addLegend(points) {
 
 byId("main-note").textContent = base ? `Each symbol is one configuration with ${samples} sample${samples === 1 ? "" : "s"} per pixel, ` +
   `as many as the base renders in a second. Lower and further left is better. relMSE is the mean of (picture − truth)² / truth² over the pixels: ` +
-  `noise and bias together. Point at a symbol for its numbers.` : "";
+  `noise and bias together. Point at a symbol for its numbers.` +
+  (measured.every(c => errorAt(c, samples).value > 0) ? "" : " Configurations without any error are not shown: the axis has no zero.") : "";
 drawMainPlot();

@@ -6,14 +6,15 @@ function addPictures() {
   if (shown.length === 0) return;
   byId("picture-section").hidden = false;
   const spent = shown.map(c => c.picture_seconds).filter(finite);
-  if (spent.length) byId("picture-note").textContent = `Each was rendered for about ${shortSeconds(d3.median(spent))}, after its build. What looks smooth may still be biased.`;
+  if (spent.length) byId("picture-note").textContent = `Each was rendered for about ${shortSeconds(Number(d3.median(spent).toPrecision(2)))}, after its build. What looks smooth may still be biased.`;
   for (const c of shown) {
     const kind = kindOf(c);
     const mark = kind === "unbiased" ? "" : element("span", { class: `badge ${kind}` }, kind);
-    const facts = [finite(c.picture_samples) && `${c.picture_samples} sample${c.picture_samples === 1 ? "" : "s"}`,
-      finite(c.picture_seconds) && seconds(c.picture_seconds)].filter(Boolean).join(", ");
+    const count = finite(c.picture_samples) ? `${c.picture_samples} sample${c.picture_samples === 1 ? "" : "s"}` : "";
+    const time = finite(c.picture_seconds) ? seconds(c.picture_seconds) : "";
     byId("pictures").append(element("figure", {}, element("img", { src: "data:image/png;base64," + c.picture, alt: `picture of ${c.name}` }),
-      element("figcaption", {}, element("b", {}, c.name), facts, mark && facts ? ", " : "", mark)));
+      element("figcaption", {}, element("b", {}, c.name), element("span", { class: "line" }, count),
+        element("span", { class: "line" }, time, mark && time ? ", " : "", mark))));
   }
 }
 
@@ -30,23 +31,21 @@ function addRequirements() {
 
 function estimateCell(e, say) {
   const cell = element("td", { class: "n" }, estimate(e) ? say(e.value) : none);
-  if (estimate(e)) cell.append(element("small", {}, range(estimate(e), say)));
+  if (estimate(e) && (e.low !== e.value || e.high !== e.value)) cell.append(element("small", {}, range(estimate(e), say)));
   return cell;
 }
 
 // ---- the table: a column has a head, a value to sort by, and a cell
+const one = { value: 1, low: 1, high: 1 };
 const columns = [
   { head: "configuration", key: c => c.name, cell: c => element("td", {}, c.name) },
   { head: "verdict", key: c => c.bias?.verdict, cell: c => element("td", { class: kindOf(c) }, element("span", { class: `badge ${kindOf(c)}`, title: c.bias?.reason ?? "" }, c.bias?.verdict ?? none)) },
-  estimateColumn("time to equal error", c => c.time_to_equal_error, times),
+  estimateColumn("time to equal noise", c => c === base ? one : c.time_to_equal_error, times),
   estimateColumn("efficiency, 1/(relMSE s)", c => c.efficiency, number),
-  estimateColumn("speed", c => c.speed, times),
+  estimateColumn("speed", c => c === base ? one : c.speed, times),
   estimateColumn("error of the mean", c => c.bias?.whole, percent),
-  { head: "strongest evidence of bias", numeric: true, key: c => estimate(c.bias?.worst)?.value, cell: c => {
-    const cell = estimateCell(c.bias?.worst, percent);
-    if (c.bias?.worst_region) cell.append(element("small", {}, c.bias.worst_region));
-    return cell;
-  } },
+  estimateColumn("strongest evidence of bias", c => c.bias?.worst, percent),
+  { head: "where", key: c => c.bias?.worst_region, cell: c => element("td", { class: "where" }, c.bias?.worst_region ?? none) },
   { head: "detectable error", numeric: true, key: c => c.bias?.detectable, cell: c => element("td", { class: "n" }, unsigned(c.bias?.detectable)) },
   estimateColumn("noise, relMSE of 1 sample", c => c.noise, number, c => c.skewed ? "heavy-tailed" : ""),
   estimateColumn("bias², relMSE", c => c.bias_squared, number),
@@ -108,7 +107,7 @@ function addTable() {
   body.append(...sorted(null, 1).map(rowOf));
   byId("table").append(element("table", {}, element("thead", {}, element("tr", {}, ...heads)), body));
   byId("table-note").textContent = "Small print: the interval" + (finite(results.confidence) ? ` of ${number(100 * results.confidence, 2)}%` : "") +
-    ", for the memory the range over the rounds. Time to equal error and speed are relative to the base. Click on a column head to sort.";
+    ", for the memory the range over the rounds. Time to equal noise and speed are relative to the base. Click on a column head to sort.";
 }
 
 addPictures();
