@@ -36,6 +36,7 @@ std::vector<Rule> rules_for(const RenderCommand& options)
         {"--builder", options.device != "ref", with_device + "the fast path has a tree of its own"},
         {"--roulette-from", options.no_roulette, "with --no-roulette"},
         {"--roulette-from", options.device != "ref", with_device + "it is for the reference"},
+        {"--epsilon", options.device != "ref", with_device + "it is for the reference"},
         {"--without", options.device != "ref", with_device + "it is for the reference"},
         {"--threads", options.device == "cuda", with_device + "it is for the host's processor"},
         {"--instructions", options.device != "host", with_device + "it is for the host's fast path"},

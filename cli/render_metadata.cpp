@@ -2,12 +2,16 @@
 
 #include "images/families.h"
 
+#include <array>
+#include <charconv>
+
 namespace cli {
 
 namespace {
 
 /// The entries that `describe` leaves out.
-const images::Metadata defaults = {{"device", "ref"}, {"roulette_from", "5"}, {"without", "nothing"}};
+const images::Metadata defaults = {
+    {"device", "ref"}, {"epsilon", "none"}, {"roulette_from", "5"}, {"without", "nothing"}};
 
 /// The families that are left out, in the order of their names' list.
 std::string names_of_left_out(const RenderCommand& options)
@@ -17,6 +21,13 @@ std::string names_of_left_out(const RenderCommand& options)
     for (const auto& [name, family] : images::named_families)
         if (!(families.*family)) names += (names.empty() ? "" : " ") + std::string(name);
     return names.empty() ? "nothing" : names;
+}
+
+/// The shortest decimal number that is read as `value`.
+std::string shortest(double value)
+{
+    std::array<char, 32> text{};
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 } // namespace
@@ -40,6 +51,7 @@ images::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
     };
     add("device", options.device);
     add("roulette_from", std::to_string(options.roulette_from));
+    add("epsilon", options.epsilon ? shortest(*options.epsilon) : "none");
     add("without", names_of_left_out(options));
     return metadata;
 }

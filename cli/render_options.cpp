@@ -129,6 +129,8 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
                     "The first bounce that roulette may end, at least 1")
         ->check(CLI::Range(1, 1 << 20).description(""))
         ->capture_default_str();
+    command.add_option("--epsilon", options.epsilon,
+                       "Leave surfaces by this fixed distance: a warning example");
     command
         .add_option("--without", options.without,
                     "Leave out emission_hit, next_event, light_image or inner_connection")
@@ -218,6 +220,8 @@ void check(const RenderCommand& options)
     expect_whole_batches(options.samples, options.batch_size);
     if (options.no_roulette && options.max_edges == images::unlimited_edges)
         throw std::invalid_argument("--no-roulette needs --max-edges: paths would never end");
+    if (options.epsilon && !(*options.epsilon > 0.0 && std::isfinite(*options.epsilon)))
+        throw std::invalid_argument("--epsilon: expected a length above 0");
     if (std::isnan(options.exposure) || std::isnan(options.watch))
         throw std::invalid_argument("--exposure and --watch expect numbers, and got a NaN");
     check_families(options);

@@ -25,6 +25,16 @@ fast::InstructionSet instructions_named(const std::string& name)
                                 std::string(name_of(fast::best_instruction_set())));
 }
 
+/// --epsilon at the scale of `scene`; 0 if it was not given.
+double epsilon_in(const scenes::Scene& scene, const RenderCommand& options)
+{
+    if (!options.epsilon) return 0.0;
+    const double epsilon = *options.epsilon * scene.unit;
+    if (!(epsilon > 0.0 && epsilon <= 1e100))
+        throw std::invalid_argument("--epsilon: out of range for a scene of this size");
+    return epsilon;
+}
+
 } // namespace
 
 std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, const scenes::Scene& scene)
@@ -33,7 +43,7 @@ std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, con
     const images::RenderOptions plan = render_options(options);
     if (options.device == "ref")
         return ref::renderer(scene, size.width, size.height, plan, options.threads,
-                             builder_named(options.builder));
+                             builder_named(options.builder), epsilon_in(scene, options));
     if (!options.quiet)
         for (const std::string& notice : fast::float_notices(scene))
             std::cerr << shown_name(options.scene) << ": " << notice << '\n';

@@ -123,6 +123,7 @@ Scene placed(Scene scene)
             std::frexp(largest, &exponent);
             std::frexp(4 * glm::length(scaled(quarter, -exponent)), &rest);
             const int scale = 1 - exponent - rest;
+            scene.unit = std::ldexp(scene.unit, scale);
             const auto scale_point = [&](Vec3& v) { v = scaled(v, scale); };
             for_each_coordinate(scene, scale_point,
                                 [&](double& length) { length = std::ldexp(length, scale); });

@@ -107,6 +107,9 @@ struct Scene {
 
     std::optional<Camera> camera;
 
+    /// The length here of one unit of length of the file: a power of two (placed.h).
+    double unit = 1.0;
+
     /// Notices for the user about the interpretation of the file; one line each.
     std::vector<std::string> notices;
 };

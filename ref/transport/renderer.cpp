@@ -36,8 +36,9 @@ private:
 class SceneRenderer : private World, public RefRenderer {
 public:
     SceneRenderer(const scenes::Scene& source, int width, int height,
-                  const images::RenderOptions& options, unsigned threads, Builder builder)
-        : World(source, width, height, builder),
+                  const images::RenderOptions& options, unsigned threads, Builder builder,
+                  double epsilon)
+        : World(source, width, height, builder, epsilon),
           RefRenderer(static_cast<const World&>(*this), integrator_of(options.integrator), options,
                       threads)
     {}
@@ -66,9 +67,9 @@ std::unique_ptr<images::Renderer> renderer(const World& world, Integrator integr
 
 std::unique_ptr<images::Renderer> renderer(const scenes::Scene& scene, int width, int height,
                                            const images::RenderOptions& options, unsigned threads,
-                                           Builder builder)
+                                           Builder builder, double epsilon)
 {
-    return std::make_unique<SceneRenderer>(scene, width, height, options, threads, builder);
+    return std::make_unique<SceneRenderer>(scene, width, height, options, threads, builder, epsilon);
 }
 
 } // namespace ref

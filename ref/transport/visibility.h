@@ -12,12 +12,20 @@
 
 namespace ref {
 
+/// Whether the ends of a segment d, moved to `from` and `to` by the fixed distance Geometry::epsilon,
+/// have passed each other: then nothing of it is left to be tested.
+inline bool is_used_up(const Geometry& geometry, const Vec3& d, const Vec3& from, const Vec3& to)
+{
+    return geometry.epsilon() != 0.0 && glm::dot(to - from, d) <= 0.0;
+}
+
 /// Whether no surface lies between two points on surfaces.
 inline bool visible(const Geometry& geometry, const SurfacePoint& a, const SurfacePoint& b)
 {
     const Vec3 d = b.position - a.position;
     const Vec3 from = leave_surface(a, d);
-    return !occluded(geometry, {from, end_at_surface(b, -d) - from, 1.0});
+    const Vec3 to = end_at_surface(b, -d);
+    return is_used_up(geometry, d, from, to) || !occluded(geometry, {from, to - from, 1.0});
 }
 
 /// Whether no surface lies between a point on a surface and a point in free space. The latter lies on
@@ -27,6 +35,7 @@ inline bool visible(const Geometry& geometry, const SurfacePoint& a, const Vec3&
 {
     const Vec3 d = b - a.position;
     const Vec3 from = leave_surface(a, d);
+    if (is_used_up(geometry, d, from, b)) return true;
     if (b_on.empty()) return !occluded(geometry, {from, b - from, 1.0});
     const bool in_plane = a.primitive < geometry.scene().triangles.size() &&
                           std::ranges::find(b_on, a.primitive) != b_on.end();

@@ -8,13 +8,18 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace ref {
 
-Geometry::Geometry(const scenes::Scene& scene, Builder builder, scenes::Coincidences coincident)
-    : scene_(&scene), tree_(build(primitive_bounds(scene), builder)), coincident_(std::move(coincident))
+Geometry::Geometry(const scenes::Scene& scene, Builder builder, scenes::Coincidences coincident,
+                   double epsilon)
+    : scene_(&scene), tree_(build(primitive_bounds(scene), builder)), coincident_(std::move(coincident)),
+      epsilon_(epsilon)
 {
+    if (!(epsilon >= 0.0 && epsilon <= 1e100))
+        throw std::invalid_argument("the fixed distance by which rays leave surfaces is out of range");
     if (tree_.nodes.empty()) return;
     const Aabb& box = tree_.bounds[0];
     diagonal_ = glm::length(box.upper - box.lower);
@@ -151,6 +156,7 @@ SurfacePoint triangle_point(const Geometry& geometry, std::uint32_t triangle, co
     const Vec3 a = geometry.extent(triangle, box);
     SurfacePoint point{};
     point.primitive = triangle;
+    point.epsilon = geometry.epsilon();
     point.material = geometry.scene().triangles[triangle].material;
     point.position = v[0] + (b1 * e1 + b2 * e2);
     point.normal = scaled_normalize(glm::cross(e1, e2));
@@ -166,6 +172,7 @@ SurfacePoint sphere_point(const Geometry& geometry, std::uint32_t sphere, const 
     const scenes::Sphere& s = geometry.scene().spheres[sphere];
     SurfacePoint point{};
     point.primitive = static_cast<std::uint32_t>(geometry.scene().triangles.size()) + sphere;
+    point.epsilon = geometry.epsilon();
     point.material = s.material;
     point.normal = glm::normalize(direction);
     point.position = s.center + s.radius * point.normal;
@@ -187,9 +194,11 @@ SurfacePoint surface_point(const Geometry& geometry, const Ray& ray, const Hit& 
 
 namespace {
 
-/// `point.position` moved off the surface by `distance`, to the side that `direction` points to.
+/// `point.position` moved off the surface, to the side that `direction` points to: by `distance`, or
+/// along `direction` by point.epsilon.
 Vec3 moved_off(const SurfacePoint& point, const Vec3& direction, double distance)
 {
+    if (point.epsilon != 0.0) return point.position + point.epsilon * scaled_normalize(direction);
     const double side = glm::dot(direction, point.normal) < 0 ? -1 : 1;
     return point.position + side * distance * point.normal;
 }

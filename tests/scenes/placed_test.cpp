@@ -90,6 +90,16 @@ RC_GTEST_PROP(Placed, NoPowerOfTwoChangesABit, ())
     expect_same(scenes::placed(once), once);
 }
 
+TEST(Placed, RemembersTheUnitOfTheFile)
+{
+    const Scene scene = small_scene();
+    for (const int exponent : {-20, -1, 0, 3}) {
+        const Scene here = placed(times_power(scene, exponent));
+        EXPECT_EQ(here.unit, here.spheres[0].radius / times_power(scene, exponent).spheres[0].radius);
+        EXPECT_EQ(placed(here).unit, here.unit); // once placed, it stays
+    }
+}
+
 TEST(Placed, TheLargestAndTheSmallestScenesAreHeld)
 {
     Scene scene = small_scene();
