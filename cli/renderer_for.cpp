@@ -25,6 +25,28 @@ fast::InstructionSet instructions_named(const std::string& name)
                                 std::string(name_of(fast::best_instruction_set())));
 }
 
+std::string reference_builder(const RenderCommand& options)
+{
+    return options.builder.empty() ? default_builder : options.builder;
+}
+
+/// The needs that `--kernel-needs` adds to those of the scene.
+fast::Needs needs_named(const std::string& name)
+{
+    if (name == "all") return fast::any_needs;
+    return name == "specular" ? fast::Needs{true, true, false} : fast::Needs{};
+}
+
+fast::RendererOptions choices_of(const RenderCommand& options)
+{
+    fast::RendererOptions choices;
+    if (options.device == "host") choices.instructions = instructions_named(options.instructions);
+    if (options.kernels == "stages") choices.kernels = fast::DeviceKernels::stages;
+    choices.at_least = needs_named(options.kernel_needs);
+    choices.tree = fast_builder_named(options.builder);
+    return choices;
+}
+
 } // namespace
 
 std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, const scenes::Scene& scene)
@@ -33,17 +55,15 @@ std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, con
     const images::RenderOptions plan = render_options(options);
     if (options.device == "ref")
         return ref::renderer(scene, size.width, size.height, plan, options.threads,
-                             builder_named(options.builder));
+                             builder_named(reference_builder(options)));
     if (!options.quiet)
         for (const std::string& notice : fast::float_notices(scene))
             std::cerr << shown_name(options.scene) << ": " << notice << '\n';
+    const fast::RendererOptions choices = choices_of(options);
     if (options.device == "host")
-        return fast::host_renderer(scene, size.width, size.height, plan, options.threads,
-                                   instructions_named(options.instructions));
+        return fast::host_renderer(scene, size.width, size.height, plan, options.threads, choices);
     try {
-        return fast::device_renderer(scene, size.width, size.height, plan,
-                                     options.kernels == "stages" ? fast::DeviceKernels::stages
-                                                                 : fast::DeviceKernels::samples);
+        return fast::device_renderer(scene, size.width, size.height, plan, choices);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(std::string("--device cuda: ") + error.what());
     }
@@ -53,6 +73,12 @@ std::optional<fast::Needs> kernel_of(const images::Renderer& renderer)
 {
     const auto* fast = dynamic_cast<const fast::Renderer*>(&renderer);
     return fast == nullptr ? std::nullopt : std::optional(fast->needs());
+}
+
+std::string builder_of(const RenderCommand& options, const images::Renderer& renderer)
+{
+    const auto* fast = dynamic_cast<const fast::Renderer*>(&renderer);
+    return fast == nullptr ? reference_builder(options) : std::string(name_of(fast->tree()));
 }
 
 } // namespace cli

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <utility>
+
 namespace {
 
 using namespace cli_test;
@@ -49,6 +51,50 @@ TEST_F(FastRender, DeterministicFilesDoNotDependOnThreads)
     const Arguments exactly = {"--integrator", "bdpt", "--deterministic"};
     ASSERT_EQ(run(render(out, "8") + exactly + Arguments{"-t", "1"}).status, 0);
     ASSERT_EQ(run(render(other, "8") + exactly + Arguments{"-t", "3"}).status, 0);
+    EXPECT_TRUE(read_bytes(out) == read_bytes(other));
+}
+
+TEST_F(FastRender, TreeAndNeedsOfTheKernelChangeNoByteAndAreNamed)
+{
+    const auto json_of = [&](const std::string& file, const Arguments& more) {
+        const Arguments render = {"render",
+                                  scene_file("mesh_knot"),
+                                  "-o",
+                                  file,
+                                  "--size",
+                                  "24x16",
+                                  "-s",
+                                  "4",
+                                  "--device",
+                                  "host",
+                                  "--integrator",
+                                  "bdpt",
+                                  "--max-edges",
+                                  "5",
+                                  "--deterministic",
+                                  "--json"};
+        const Outcome outcome = run(render + more);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return outcome.status == 0 ? nlohmann::json::parse(outcome.out) : nlohmann::json();
+    };
+    const nlohmann::json plain = json_of(out, {});
+    EXPECT_EQ(plain["builder"], "hploc63");
+    using Choice = std::pair<const char*, const char*>; // as given, and in full
+    for (const auto& [given, name] :
+         {Choice{"morton30", "morton30"}, Choice{"morton63", "morton63"}, Choice{"hploc30", "hploc30"},
+          Choice{"hploc63", "hploc63"}, Choice{"hploc", "hploc63"}}) {
+        EXPECT_EQ(json_of(other, {"--builder", given})["builder"], name);
+        EXPECT_TRUE(read_bytes(out) == read_bytes(other)) << given;
+    }
+    const auto kernel = [](bool specular, bool all) {
+        return nlohmann::json{
+            {"spheres", specular}, {"specular", specular}, {"other_lights", all}, {"coincident", all}};
+    };
+    EXPECT_EQ(plain["kernel"], kernel(false, false));
+    EXPECT_EQ(json_of(other, {"--kernel-needs", "scene"})["kernel"], kernel(false, false));
+    EXPECT_EQ(json_of(other, {"--kernel-needs", "specular"})["kernel"], kernel(true, false));
+    EXPECT_TRUE(read_bytes(out) == read_bytes(other));
+    EXPECT_EQ(json_of(other, {"--kernel-needs", "all"})["kernel"], kernel(true, true));
     EXPECT_TRUE(read_bytes(out) == read_bytes(other));
 }
 
