@@ -17,7 +17,8 @@ images::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
                                  {"camera", options.frame ? "framed" : "of the scene"},
                                  {"version", PLUMBLINE_VERSION}};
     // No entry for the reference, so that its files do not change.
-    if (options.device != "ref") metadata["device"] = options.device;
+    if (options.device != "ref")
+        metadata["device"] = options.device + (options.instructions == "fastmath" ? ", fastmath" : "");
     return metadata;
 }
 

@@ -81,8 +81,8 @@ void add_device_options(CLI::App& command, RenderCommand& options)
         ->capture_default_str();
     command
         .add_option("--instructions", options.instructions,
-                    "For host: baseline, avx2, avx512 or best; changes no bit")
-        ->check(one_of({"baseline", "avx2", "avx512", "best"}))
+                    "For host: baseline, avx2, avx512, best: same bits; fastmath: others")
+        ->check(one_of({"baseline", "avx2", "avx512", "best", "fastmath"}))
         ->capture_default_str();
     command
         .add_option("--kernels", options.kernels,

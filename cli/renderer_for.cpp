@@ -14,10 +14,16 @@ namespace cli {
 
 namespace {
 
-/// Throws std::invalid_argument if this processor does not have them.
+/// Throws std::invalid_argument if this program or this processor does not have them.
 fast::InstructionSet instructions_named(const std::string& name)
 {
     if (name == "best") return fast::best_instruction_set();
+    if (name == name_of(fast::InstructionSet::fastmath)) {
+        if (fast::has_fast_math()) return fast::InstructionSet::fastmath;
+        throw std::invalid_argument("--instructions fastmath: the program was built without it " +
+                                    std::string("(PLUMBLINE_FAST_MATH_KERNELS in CMake), or this "
+                                                "processor lacks its instructions"));
+    }
     for (const fast::InstructionSet set : fast::instruction_sets())
         if (name_of(set) == name) return set;
     throw std::invalid_argument("--instructions " + name + ": this processor does not have them, or " +

@@ -34,10 +34,10 @@ public:
 /// of many samples (docs/stages.md). Both give the same bits.
 enum class DeviceKernels { samples, stages };
 
-/// Choices that change speed and memory. The bits of a picture do not depend on them, except
-/// those of splats as floats.
+/// Choices that change speed and memory. The bits of a picture do not depend on them, except on
+/// InstructionSet::fastmath, and except those of splats as floats.
 struct RendererOptions {
-    /// For host_renderer: one of instruction_sets().
+    /// For host_renderer: one of instruction_sets(), or fastmath if has_fast_math().
     InstructionSet instructions = best_instruction_set();
     DeviceKernels kernels = DeviceKernels::samples; // for device_renderer
     Needs at_least = {}; // abilities of the kernels beyond those that the scene needs

@@ -70,6 +70,14 @@ TEST_P(Staged, SamplesHaveTheBitsOfWholeSamples)
 INSTANTIATE_TEST_SUITE_P(Scenes, Staged, testing::ValuesIn(transport_test::our_scene_names()),
                          [](const auto& tested) { return tested.param; });
 
+TEST(InstructionSets, OfTheSameBitsAreWithoutFastMath)
+{
+    for (const fast::InstructionSet set : fast::instruction_sets())
+        EXPECT_NE(set, fast::InstructionSet::fastmath);
+    EXPECT_NE(fast::best_instruction_set(), fast::InstructionSet::fastmath);
+    EXPECT_EQ(name_of(fast::InstructionSet::fastmath), "fastmath");
+}
+
 class EveryInstructionSet : public testing::TestWithParam<images::Integrator> {};
 
 TEST_P(EveryInstructionSet, GivesTheSameDeterministicPicture)
