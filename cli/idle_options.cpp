@@ -1,5 +1,6 @@
 #include "cli/idle_options.h"
 
+#include "cli/builders.h"
 #include "images/file_ending.h"
 
 #include <CLI/CLI.hpp>
@@ -19,6 +20,18 @@ struct Rule {
     std::string beside; // the option that is the cause, and the reason
 };
 
+bool is_one_of(const std::string& word, const std::vector<std::string>& words)
+{
+    return std::ranges::find(words, word) != words.end();
+}
+
+std::string listed(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
 std::vector<Rule> rules_for(const RenderCommand& options)
 {
     const auto writes = [&](const char* ending) {
@@ -33,7 +46,8 @@ std::vector<Rule> rules_for(const RenderCommand& options)
         {"--heuristic", options.integrator != "bdpt", with_integrator + "it is for bdpt"},
         {"--heuristic", options.heuristic == "uniform" && options.device != "ref",
          with_device + "it is for the reference"},
-        {"--builder", options.device != "ref", with_device + "the fast path has a tree of its own"},
+        {"--builder", !is_one_of(options.builder, builder_names(options.device)),
+         with_device + "its trees are " + listed(builder_names(options.device))},
         {"--roulette-from", options.no_roulette, "with --no-roulette"},
         {"--roulette-from", options.device != "ref", with_device + "it is for the reference"},
         {"--epsilon", options.device != "ref", with_device + "it is for the reference"},
@@ -41,6 +55,7 @@ std::vector<Rule> rules_for(const RenderCommand& options)
         {"--threads", options.device == "cuda", with_device + "it is for the host's processor"},
         {"--instructions", options.device != "host", with_device + "it is for the host's fast path"},
         {"--kernels", options.device != "cuda", with_device + "it is for the GPU"},
+        {"--kernel-needs", options.device == "ref", with_device + "it is for the fast path"},
         {"--exposure", !writes(".png") && !sheet,
          "without a .png: neither --output nor --strategies-picture names one"},
         {"--unweighted", !layers, "without --strategies or --strategies-picture: it is for them"},

@@ -92,7 +92,11 @@ ExitStatus render(const RenderCommand& options)
     images::Film film = starting_film(options, metadata, dropped);
     const std::uint64_t batches_before = film.batches();
     const std::uint64_t batches_in_all = options.samples / options.batch_size;
+    const Clock::time_point build_start = Clock::now();
+    const double build_cpu_start = cpu_seconds();
     const auto renderer = renderer_for(options, scene);
+    const double build_seconds = seconds_since(build_start);
+    const double build_cpu = cpu_seconds() - build_cpu_start;
     images::StrategySums strategies;
     images::Layers batches; // those that are to be kept
     PictureMean mean;
@@ -130,7 +134,17 @@ ExitStatus render(const RenderCommand& options)
     if (anything) write_all(film);
     const auto samples = static_cast<double>((film.batches() - batches_before) * options.batch_size) *
                          size.width * size.height;
-    const RenderRun run{scene, film, mean, dropped, kernel_of(*renderer), samples, seconds, cpu};
+    const RenderRun run{.scene = scene,
+                        .film = film,
+                        .mean = mean,
+                        .dropped = dropped,
+                        .kernel = kernel_of(*renderer),
+                        .builder = builder_of(options, *renderer),
+                        .samples = samples,
+                        .seconds = seconds,
+                        .cpu_seconds = cpu,
+                        .build_seconds = build_seconds,
+                        .build_cpu_seconds = build_cpu};
     for (const std::string& warning : warnings(run))
         std::cerr << "plumbline: warning: " << shown_name(options.scene) << ": " << warning << '\n';
     if (options.json) std::cout << render_json(options, run) << std::endl;

@@ -23,8 +23,9 @@ struct RenderCommand {
     std::string device = "ref";
     std::string instructions = "best";
     std::string kernels = "samples";
+    std::string kernel_needs = "scene";
     std::string integrator = "path";
-    std::string builder = "sah-leaf";
+    std::string builder; // empty: the default of the device (builders.h)
     std::string heuristic = "balance";
     int max_edges = images::unlimited_edges;
     bool no_roulette = false;

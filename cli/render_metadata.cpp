@@ -49,7 +49,7 @@ images::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
     const auto add = [&](const char* key, const std::string& value) {
         if (value != defaults.at(key)) metadata[key] = value;
     };
-    add("device", options.device);
+    add("device", options.device + (options.instructions == "fastmath" ? ", fastmath" : ""));
     add("roulette_from", std::to_string(options.roulette_from));
     add("epsilon", options.epsilon ? shortest(*options.epsilon) : "none");
     add("without", names_of_left_out(options));

@@ -52,6 +52,14 @@ CLI::Validator one_of(const std::vector<std::string>& words)
     return CLI::IsMember(words).description("");
 }
 
+/// Of every device; which of them have no effect with which device: idle_options.cpp.
+std::vector<std::string> all_builder_names()
+{
+    std::vector<std::string> names = builder_names("ref");
+    for (const std::string& name : builder_names("host")) names.push_back(name);
+    return names;
+}
+
 /// Needed because CLI11 reads "-1" and numbers above 2^64 - 1 as 2^64 - 1.
 std::string expect_seed(const std::string& text)
 {
@@ -91,13 +99,18 @@ void add_device_options(CLI::App& command, RenderCommand& options)
         ->capture_default_str();
     command
         .add_option("--instructions", options.instructions,
-                    "For host: baseline, avx2, avx512 or best; changes no bit")
-        ->check(one_of({"baseline", "avx2", "avx512", "best"}))
+                    "For host: baseline, avx2, avx512, best: same bits; fastmath: others")
+        ->check(one_of({"baseline", "avx2", "avx512", "best", "fastmath"}))
         ->capture_default_str();
     command
         .add_option("--kernels", options.kernels,
                     "For cuda: whole samples, or stages of many; changes no bit")
         ->check(one_of({"samples", "stages"}))
+        ->capture_default_str();
+    command
+        .add_option("--kernel-needs", options.kernel_needs,
+                    "Fast path: kernels for scene, specular or all needs; changes no bit")
+        ->check(one_of({"scene", "specular", "all"}))
         ->capture_default_str();
     command.add_flag("--deterministic", options.deterministic,
                      "The fast path gives the same bits every time; ref always does");
@@ -111,8 +124,9 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
         ->capture_default_str();
     command
         .add_option("--builder", options.builder,
-                    "Tree of ref: morton30, morton63, sah or sah-leaf; changes no bit")
-        ->check(one_of(builder_names()))
+                    "Tree, changes no bit. For ref: morton30, morton63, sah or [sah-leaf];\n"
+                    "for the fast path: morton30, morton63, hploc30 or [hploc63]")
+        ->check(one_of(all_builder_names()))
         ->capture_default_str();
     command
         .add_option("--heuristic", options.heuristic,

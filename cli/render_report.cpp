@@ -101,6 +101,7 @@ std::string render_json(const RenderCommand& options, const RenderRun& run)
     const auto rate = [&](double time) { return time > 0.0 ? run.samples / time : 0.0; };
     const Json json = {{"scene", run.scene.name},
                        {"device", options.device},
+                       {"builder", run.builder},
                        {"integrator", options.integrator},
                        {"width", run.film.mean().width},
                        {"height", run.film.mean().height},
@@ -110,6 +111,8 @@ std::string render_json(const RenderCommand& options, const RenderRun& run)
                        {"samples", run.samples},
                        {"seconds", run.seconds},
                        {"cpu_seconds", run.cpu_seconds},
+                       {"build_seconds", run.build_seconds},
+                       {"build_cpu_seconds", run.build_cpu_seconds},
                        {"samples_per_second", rate(run.seconds)},
                        {"samples_per_cpu_second", rate(run.cpu_seconds)},
                        {"threads", options.threads},

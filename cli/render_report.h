@@ -40,9 +40,12 @@ struct RenderRun {
     const PictureMean& mean;
     const images::Dropped& dropped;
     std::optional<fast::Needs> kernel; // of the fast path; none for the reference
+    std::string builder;               // of the tree
     double samples;                    // of all pixels together, in this run
     double seconds;
     double cpu_seconds;
+    double build_seconds; // before `seconds`: until the renderer could begin, with its trees
+    double build_cpu_seconds;
 };
 
 /// Whether every pixel is 0 as a float although the scene has an emitter.

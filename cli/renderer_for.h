@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace cli {
 
@@ -19,5 +20,8 @@ std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, con
 
 /// The features of the kernels of the fast path; none for the reference.
 std::optional<fast::Needs> kernel_of(const images::Renderer& renderer);
+
+/// The name of the builder of the tree that `renderer`, which was made for the options, has.
+std::string builder_of(const RenderCommand& options, const images::Renderer& renderer);
 
 } // namespace cli

@@ -1,5 +1,6 @@
 #include "cli/trade_knobs.h"
 
+#include "cli/builders.h"
 #include "cli/idle_options.h"
 #include "cuda/launch/instruction_set.h"
 
@@ -39,6 +40,7 @@ Values instruction_sets()
 {
     Values values;
     for (const fast::InstructionSet set : fast::instruction_sets()) values.emplace_back(name_of(set));
+    if (fast::has_fast_math()) values.emplace_back("fastmath");
     return values;
 }
 
@@ -68,7 +70,7 @@ const std::array knob_rules = {
     KnobRule{
         "threads", "threads of the processor", true, "", {}, [](const Settings&) { return threads(); }},
     KnobRule{"instructions",
-             "vector instructions of the host's kernels; change no bit",
+             "vector instructions of the host's kernels, which change no bit; fastmath: less exact",
              false,
              "best",
              {{"device", "host"}},
@@ -89,6 +91,28 @@ const std::array knob_rules = {
                  if (reference.contains("max-edges")) values.emplace_back("off");
                  return values;
              }},
+    KnobRule{"tree",
+             "tree of the fast path: H-PLOC, or a radix tree over Morton codes of 63 or 30 bits",
+             true,
+             "hploc63",
+             {{"device", "host"}},
+             [](const Settings&) {
+                 return Values{"hploc63", "hploc30", "morton63", "morton30"};
+             }},
+    KnobRule{"kernel-needs",
+             "kernels for what the scene requires, or also for spheres, mirrors and glass, or for all",
+             true,
+             "scene",
+             {{"device", "host"}},
+             [](const Settings&) {
+                 return Values{"scene", "specular", "all"};
+             }},
+    KnobRule{"epsilon",
+             "rays leave surfaces by a proven bound, or by a fixed length (a known mistake)",
+             false,
+             "bound",
+             {{"device", "ref"}},
+             [](const Settings&) { return Values{"bound", "1e-2", "1e-3", "1e-4", "1e-5", "1e-6"}; }},
     KnobRule{"ref-tree",
              "tree of the reference: by Morton codes of 30 or 63 bits, or by the surface area heuristic",
              false,
@@ -129,7 +153,8 @@ const KnobRule& rule_of(const std::string& name)
 /// The option of `plumbline render` that a knob turns.
 std::string option_of(const KnobRule& rule)
 {
-    return std::string(rule.name) == "ref-tree" ? "builder" : rule.name;
+    const std::string name = rule.name;
+    return name == "tree" || name == "ref-tree" ? "builder" : name;
 }
 
 /// Removes settings that have no effect beside the others, as `plumbline render` would refuse them.
@@ -141,7 +166,7 @@ void drop_idle(Settings& settings)
     if (!is(settings, "device", "host")) drop({"instructions"});
     if (!settings.contains("device") || is(settings, "device", "ref")) drop({"kernel-needs"});
     if (settings.contains("device") && !is(settings, "device", "ref")) {
-        drop({"without", "roulette-from"});
+        drop({"without", "roulette-from", "epsilon"});
         if (is(settings, "heuristic", "uniform")) drop({"heuristic"});
     }
     if (!is(settings, "integrator", "bdpt")) drop({"heuristic"});

@@ -21,6 +21,22 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         --param=large-function-growth=1000 --param=large-function-insns=20000)
 endif()
 
+# `fastmath` (cuda/launch/instruction_set.h): the kernels once more, with rounding left to the compiler, for the best
+# instruction set that this machine runs. NaN and infinity are kept, because they are data: absent triangles and boxes.
+if(PLUMBLINE_FAST_MATH_KERNELS)
+    set(PLUMBLINE_FAST_MATH_FLAGS ${PLUMBLINE_KERNEL_FLAGS} -ffast-math -fno-finite-math-only -ffp-contract=fast)
+    set(PLUMBLINE_FAST_MATH_SET baseline)
+    if(PLUMBLINE_RUNS_AVX2)
+        check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx512bw\") && __builtin_cpu_supports(\"avx512dq\") && __builtin_cpu_supports(\"avx512vl\") ? 0 : 1; }" PLUMBLINE_RUNS_AVX512)
+        set(PLUMBLINE_FAST_MATH_SET avx2)
+        if(PLUMBLINE_RUNS_AVX512)
+            set(PLUMBLINE_FAST_MATH_SET avx512)
+        endif()
+        string(TOUPPER ${PLUMBLINE_FAST_MATH_SET} set)
+        list(APPEND PLUMBLINE_FAST_MATH_FLAGS ${PLUMBLINE_${set}_FLAGS})
+    endif()
+endif()
+
 # plumbline_kernels(TARGET SET FLAGS SOURCES...): compiles the sources with FLAGS and PLUMBLINE_KERNELS=SET, and adds
 # them to TARGET as one object file of which only the functions plumbline_kernels_SET_... are visible to others.
 #

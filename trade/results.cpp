@@ -140,11 +140,19 @@ Json results(const Description& description, const StudyOptions& options,
         {"knobs", Json::array()},
         {"configurations", Json::array()},
         {"front", Json::array()}};
+    // A ratio beside another configuration; null for the configuration itself.
+    const auto beside = [&](std::size_t one, std::size_t other, const auto& ratio) {
+        return one == other ? Json(nullptr)
+                            : json_of(ratio(measured[one].rounds, measured[other].rounds));
+    };
     for (const Knob& knob : knobs) {
         Json values = Json::array();
         for (const Knob::Value& value : knob.values)
-            values.push_back(
-                {{"value", value.text}, {"configuration", configurations[value.configuration].name}});
+            values.push_back({{"value", value.text},
+                              {"configuration", configurations[value.configuration].name},
+                              {"time_to_equal_noise",
+                               beside(value.configuration, knob.reference, time_to_equal_noise)},
+                              {"speed", beside(value.configuration, knob.reference, speed)}});
         json["knobs"].push_back({{"name", knob.name},
                                  {"what", knob.what},
                                  {"reference", configurations[knob.reference].name},
@@ -164,10 +172,6 @@ Json results(const Description& description, const StudyOptions& options,
             one["problem"] = "fewer than two rounds were measured: no interval";
         if (estimates[i]) {
             const Estimates& found = *estimates[i];
-            // Beside the reference of its knob; for the base itself there is nothing to compare with.
-            const std::size_t reference = place.knob == nullptr ? 0 : place.knob->reference;
-            const bool compared = reference != i;
-            const std::vector<Round>& others = measured[reference].rounds;
             one["batches"] = std::accumulate(
                 of_one.rounds.begin(), of_one.rounds.end(), std::uint64_t{0},
                 [](std::uint64_t sum, const Round& round) { return sum + round.plan.batches; });
@@ -180,10 +184,8 @@ Json results(const Description& description, const StudyOptions& options,
             one["floor"] = found.floor;
             one["relmse_1s"] = json_of(found.relmse_1s);
             one["efficiency"] = json_of(found.efficiency);
-            one["reference"] = configurations[reference].name;
-            one["time_to_equal_error"] =
-                compared ? json_of(time_to_equal_noise(of_one.rounds, others)) : Json(nullptr);
-            one["speed"] = compared ? json_of(speed(of_one.rounds, others)) : Json(nullptr);
+            one["time_to_equal_noise"] = beside(i, 0, time_to_equal_noise);
+            one["speed"] = beside(i, 0, speed);
             one["memory"] = range_of(of_one.peak_bytes);
             one["front"] = static_cast<bool>(on_front[i]);
             one["skewed"] = found.skewed;

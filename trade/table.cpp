@@ -29,19 +29,19 @@ Estimate scaled(const Estimate& estimate, double factor)
 using Line = std::vector<std::string>;
 
 const Line head = {"configuration",       "build, ms",         "1 sample, ms", "relMSE after 1 s",
-                   "time to equal error", "error of the mean", "bias",         "memory, MiB"};
+                   "time to equal noise", "error of the mean", "bias",         "memory, MiB"};
 
 Line line_of(const Json& one)
 {
     if (!one.at("problem").is_null())
         return {one.at("name"), "not measured: " + one.at("problem").get<std::string>()};
     const Json& bias = one.at("bias");
-    const bool compared = !one.at("time_to_equal_error").is_null();
+    const bool compared = !one.at("time_to_equal_noise").is_null();
     return {one.at("name").get<std::string>() + (one.at("front").get<bool>() ? " *" : ""),
             to_text(scaled(estimate_in(one.at("build").at("wall")), 1e3)),
             to_text(scaled(estimate_in(one.at("render").at("wall")), 1e3)),
             to_text(estimate_in(one.at("relmse_1s"))) + (one.at("skewed").get<bool>() ? " ?" : ""),
-            compared ? to_text(estimate_in(one.at("time_to_equal_error"))) : "reference",
+            compared ? to_text(estimate_in(one.at("time_to_equal_noise"))) : "base",
             error_to_text(estimate_in(bias.at("whole"))),
             bias.at("verdict") == "biased" ? "BIASED" : bias.at("verdict").get<std::string>(),
             one.at("memory").is_null()

@@ -101,12 +101,14 @@ template <Executor E>
 class BatchRenderer : public Renderer {
 public:
     BatchRenderer(Memory& memory, E& executor, const LaunchLimits& limits, const scenes::Scene& scene,
-                  int width, int height, const images::RenderOptions& options, Needs at_least)
+                  int width, int height, const images::RenderOptions& options,
+                  const RendererOptions& choices)
         : BatchRenderer(memory, executor, limits, scene, scene_arrays(scene, options.roulette), width,
-                        height, options, at_least)
+                        height, options, choices)
     {}
 
     [[nodiscard]] Needs needs() const override { return needs_; }
+    [[nodiscard]] TreeBuilder tree() const override { return scene_.tree(); }
 
 private:
     std::optional<images::Batch> make_batch(std::uint64_t number,
@@ -147,10 +149,11 @@ private:
 
     BatchRenderer(Memory& memory, E& executor, const LaunchLimits& limits, const scenes::Scene& scene,
                   const SceneArrays& arrays, int width, int height, const images::RenderOptions& options,
-                  Needs at_least)
+                  const RendererOptions& choices)
         : executor_(executor), options_(checked(options)), width_(width), height_(height),
-          pixels_(pixel_count(width, height)), needs_(compiled_for(arrays.needs | at_least)),
-          scene_(memory, builder_of(executor), arrays, camera_of(scene, arrays.place, width, height)),
+          pixels_(pixel_count(width, height)), needs_(compiled_for(arrays.needs | choices.at_least)),
+          scene_(memory, builder_of(executor), arrays, camera_of(scene, arrays.place, width, height),
+                 choices.tree),
           capacity_(options_.integrator == Integrator::bdpt
                         ? most_light_vertices(arrays, options_.max_edges)
                         : 0),

@@ -62,22 +62,22 @@ template <class E>
 class DeviceRenderer : private DeviceParts, public BatchRenderer<E> {
 public:
     DeviceRenderer(E DeviceParts::*executor, const scenes::Scene& scene, int width, int height,
-                   const images::RenderOptions& options, Needs at_least)
-        : BatchRenderer<E>(memory, this->*executor, limits(), scene, width, height, options, at_least)
+                   const images::RenderOptions& options, const RendererOptions& choices)
+        : BatchRenderer<E>(memory, this->*executor, limits(), scene, width, height, options, choices)
     {}
 };
 
 } // namespace
 
 std::unique_ptr<Renderer> device_renderer(const scenes::Scene& scene, int width, int height,
-                                          const images::RenderOptions& options, DeviceKernels kernels,
-                                          Needs at_least)
+                                          const images::RenderOptions& options,
+                                          const RendererOptions& choices)
 {
-    if (kernels == DeviceKernels::stages)
+    if (choices.kernels == DeviceKernels::stages)
         return std::make_unique<DeviceRenderer<CudaStages>>(&DeviceParts::stages, scene, width, height,
-                                                            options, at_least);
+                                                            options, choices);
     return std::make_unique<DeviceRenderer<CudaExecutor>>(&DeviceParts::samples, scene, width, height,
-                                                          options, at_least);
+                                                          options, choices);
 }
 
 } // namespace fast

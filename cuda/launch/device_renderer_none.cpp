@@ -9,7 +9,7 @@ namespace fast {
 
 std::unique_ptr<Renderer> device_renderer(const scenes::Scene& /*scene*/, int /*width*/, int /*height*/,
                                           const images::RenderOptions& /*options*/,
-                                          DeviceKernels /*kernels*/, Needs /*at_least*/)
+                                          const RendererOptions& /*choices*/)
 {
     throw std::runtime_error(find_device().description);
 }

@@ -41,6 +41,7 @@ void launch_samples<Integrator::light>(HostThreads&, Needs, const SceneInMemory&
 PLUMBLINE_DECLARE_KERNELS(baseline)
 PLUMBLINE_DECLARE_KERNELS(avx2)
 PLUMBLINE_DECLARE_KERNELS(avx512)
+PLUMBLINE_DECLARE_KERNELS(fastmath)
 #undef PLUMBLINE_DECLARE_KERNELS
 
 // Names the function of this file's instruction set.

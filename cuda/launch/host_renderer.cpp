@@ -26,9 +26,9 @@ struct HostParts {
 class HostRenderer : private HostParts, public BatchRenderer<HostThreads> {
 public:
     HostRenderer(const scenes::Scene& scene, int width, int height, const images::RenderOptions& options,
-                 unsigned threads, InstructionSet instructions, Needs at_least)
-        : HostParts(threads, instructions),
-          BatchRenderer(memory, executor, limits, scene, width, height, options, at_least)
+                 unsigned threads, const RendererOptions& choices)
+        : HostParts(threads, choices.instructions),
+          BatchRenderer(memory, executor, limits, scene, width, height, options, choices)
     {}
 };
 
@@ -36,10 +36,9 @@ public:
 
 std::unique_ptr<Renderer> host_renderer(const scenes::Scene& scene, int width, int height,
                                         const images::RenderOptions& options, unsigned threads,
-                                        InstructionSet instructions, Needs at_least)
+                                        const RendererOptions& choices)
 {
-    return std::make_unique<HostRenderer>(scene, width, height, options, threads, instructions,
-                                          at_least);
+    return std::make_unique<HostRenderer>(scene, width, height, options, threads, choices);
 }
 
 } // namespace fast

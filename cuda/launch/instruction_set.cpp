@@ -1,5 +1,6 @@
 #include "cuda/launch/instruction_set.h"
 
+#include <algorithm>
 #include <array>
 
 namespace fast {
@@ -42,6 +43,16 @@ std::span<const InstructionSet> instruction_sets()
     return std::span(all).first(count);
 }
 
+bool has_fast_math()
+{
+#if defined(PLUMBLINE_FAST_MATH_SET)
+    return std::ranges::find(instruction_sets(), InstructionSet::PLUMBLINE_FAST_MATH_SET) !=
+           instruction_sets().end();
+#else
+    return false;
+#endif
+}
+
 InstructionSet best_instruction_set()
 {
     return instruction_sets().back();
@@ -55,9 +66,11 @@ std::string_view name_of(InstructionSet set)
     case InstructionSet::avx2:
         return "avx2";
     case InstructionSet::avx512:
+        return "avx512";
+    case InstructionSet::fastmath:
         break;
     }
-    return "avx512";
+    return "fastmath";
 }
 
 } // namespace fast

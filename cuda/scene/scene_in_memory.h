@@ -11,8 +11,9 @@ namespace fast {
 class SceneInMemory {
 public:
     template <Executor E>
-    SceneInMemory(Memory& memory, E& executor, const SceneArrays& arrays, const Camera& camera)
-        : geometry_(memory, executor, arrays.triangles, arrays.spheres),
+    SceneInMemory(Memory& memory, E& executor, const SceneArrays& arrays, const Camera& camera,
+                  TreeBuilder tree = default_tree_builder)
+        : geometry_(memory, executor, arrays.triangles, arrays.spheres, tree),
           triangles_(memory, std::span(arrays.triangles)), spheres_(memory, std::span(arrays.spheres)),
           surfaces_(memory, std::span(arrays.surfaces)), materials_(memory, std::span(arrays.materials)),
           emitters_(memory, std::span(arrays.emitters)),
@@ -24,6 +25,9 @@ public:
           eye_contacts_(arrays.eye_contacts), has_environment_(arrays.has_environment),
           radius_(arrays.radius), camera_(camera)
     {}
+
+    /// The builder of its tree (surfaces.h).
+    [[nodiscard]] TreeBuilder tree() const { return geometry_.builder(); }
 
     template <Needs needs>
     [[nodiscard]] SceneView<needs> view() const

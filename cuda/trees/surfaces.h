@@ -8,6 +8,7 @@
 #include "cuda/trees/lbvh.h"
 #include "cuda/trees/sphere.h"
 #include "cuda/trees/traverse.h"
+#include "cuda/trees/tree_builder.h"
 
 #include <cstdint>
 #include <span>
@@ -94,9 +95,12 @@ public:
     /// OutOfMemory.
     template <Executor E>
     SurfaceTree(Memory& memory, E& executor, std::span<const Triangle> triangles,
-                std::span<const Sphere> spheres)
-        : triangle_count_(checked(triangles.size(), spheres.size())), spheres_(memory, spheres),
-          tree_(build(memory, executor, triangles))
+                std::span<const Sphere> spheres, TreeBuilder builder = default_tree_builder)
+        : triangle_count_(checked(triangles.size(), spheres.size())), builder_(builder),
+          spheres_(memory, spheres),
+          tree_(builder == TreeBuilder::morton30 || builder == TreeBuilder::hploc30
+                    ? build<std::uint32_t>(memory, executor, triangles)
+                    : build<std::uint64_t>(memory, executor, triangles))
     {}
 
     /// Valid as long as the tree exists. `has_spheres` may be false only if there are no spheres.
@@ -106,6 +110,8 @@ public:
         return {tree_.view(), spheres_.all(), triangle_count_};
     }
     [[nodiscard]] bool has_spheres() const { return spheres_.size() > 0; }
+    /// The builder of this tree: the one that was asked for, unless its tree was too deep.
+    [[nodiscard]] TreeBuilder builder() const { return builder_; }
     /// The diagonal of the box around all surfaces (clearance.h); 0 if there are no surfaces.
     [[nodiscard]] float diagonal() const { return diagonal_; }
 
@@ -120,7 +126,8 @@ private:
         return static_cast<std::uint32_t>(triangles);
     }
 
-    template <Executor E>
+    /// `Code`: of 30 or 63 bits (morton.h).
+    template <class Code, Executor E>
     WideTree build(Memory& memory, E& executor, std::span<const Triangle> triangles)
     {
         const auto sphere_count = static_cast<std::uint32_t>(spheres_.size());
@@ -130,24 +137,27 @@ private:
         executor(triangle_count_, BoundTriangles{given.all(), boxes.first(triangle_count_)});
         executor(sphere_count, BoundSpheres{spheres_.all(), boxes.all().subspan(triangle_count_)});
 
-        Lbvh<std::uint64_t> tree(memory, executor, count);
+        Lbvh<Code> tree(memory, executor, count);
         tree.build(executor, boxes.all());
         const std::vector<Aabb> on_host = boxes.read(count);
         throw_if_rejected(tree.first_rejected(), on_host);
         Aabb bounds = empty_aabb();
         for (const Aabb& box : on_host) bounds = unite(bounds, box);
         if (count > 0) diagonal_ = glm::length(bounds.upper - bounds.lower);
-        // The better tree, unless it is too deep: the height of the radix tree is bounded, its height is
-        // not (hploc.h).
-        Hploc clustered(memory, count);
-        clustered.build(executor, boxes.all(), tree);
-        WideTree wide(memory, executor, std::as_const(clustered).nodes(), tree.primitives(),
-                      given.all());
-        if (wide.levels() <= deepest_tree) return wide;
+        if (builder_ == TreeBuilder::hploc30 || builder_ == TreeBuilder::hploc63) {
+            Hploc clustered(memory, count);
+            clustered.build(executor, boxes.all(), tree);
+            WideTree wide(memory, executor, std::as_const(clustered).nodes(), tree.primitives(),
+                          given.all());
+            if (wide.levels() <= deepest_tree) return wide;
+            // The height of the radix tree is bounded, that of this one is not (hploc.h).
+            builder_ = builder_ == TreeBuilder::hploc30 ? TreeBuilder::morton30 : TreeBuilder::morton63;
+        }
         return {memory, executor, std::as_const(tree).nodes(), tree.primitives(), given.all()};
     }
 
     std::uint32_t triangle_count_;
+    TreeBuilder builder_;
     float diagonal_ = 0;
     Buffer<Sphere> spheres_;
     WideTree tree_;

@@ -58,8 +58,8 @@ Rendered fast(const scenes::Scene& scene, fast::Integrator integrator, unsigned 
     options.integrator = integrator;
     options.max_edges = max_edges;
     options.seed = seed;
-    const auto renderer = fast::host_renderer(scene, width, height, options, threads,
-                                              fast::best_instruction_set(), at_least);
+    const auto renderer =
+        fast::host_renderer(scene, width, height, options, threads, {.at_least = at_least});
     return render_for(seconds, threads == 1 ? figures::cpu_seconds : wall_seconds,
                       [&](std::uint64_t number) { return renderer->render_batch(number, {})->mean; });
 }

@@ -1,11 +1,15 @@
 // `plumbline render --device host|cuda`: the same options, files and behaviour as the reference.
 
 #include "cuda/launch/device.h"
+#include "cuda/launch/instruction_set.h"
 #include "images/exr.h"
 #include "tests/cli/run_program.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include <utility>
 
 namespace {
 
@@ -50,6 +54,82 @@ TEST_F(FastRender, DeterministicFilesDoNotDependOnThreads)
     ASSERT_EQ(run(render(out, "8") + exactly + Arguments{"-t", "1"}).status, 0);
     ASSERT_EQ(run(render(other, "8") + exactly + Arguments{"-t", "3"}).status, 0);
     EXPECT_TRUE(read_bytes(out) == read_bytes(other));
+}
+
+TEST_F(FastRender, TreeAndNeedsOfTheKernelChangeNoByteAndAreNamed)
+{
+    const auto json_of = [&](const std::string& file, const Arguments& more) {
+        const Arguments render = {"render",
+                                  scene_file("mesh_knot"),
+                                  "-o",
+                                  file,
+                                  "--size",
+                                  "24x16",
+                                  "-s",
+                                  "4",
+                                  "--device",
+                                  "host",
+                                  "--integrator",
+                                  "bdpt",
+                                  "--max-edges",
+                                  "5",
+                                  "--deterministic",
+                                  "--json"};
+        const Outcome outcome = run(render + more);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return outcome.status == 0 ? nlohmann::json::parse(outcome.out) : nlohmann::json();
+    };
+    const nlohmann::json plain = json_of(out, {});
+    EXPECT_EQ(plain["builder"], "hploc63");
+    using Choice = std::pair<const char*, const char*>; // as given, and in full
+    for (const auto& [given, name] :
+         {Choice{"morton30", "morton30"}, Choice{"morton63", "morton63"}, Choice{"hploc30", "hploc30"},
+          Choice{"hploc63", "hploc63"}, Choice{"hploc", "hploc63"}}) {
+        EXPECT_EQ(json_of(other, {"--builder", given})["builder"], name);
+        EXPECT_TRUE(read_bytes(out) == read_bytes(other)) << given;
+    }
+    const auto kernel = [](bool specular, bool all) {
+        return nlohmann::json{
+            {"spheres", specular}, {"specular", specular}, {"other_lights", all}, {"coincident", all}};
+    };
+    EXPECT_EQ(plain["kernel"], kernel(false, false));
+    EXPECT_EQ(json_of(other, {"--kernel-needs", "scene"})["kernel"], kernel(false, false));
+    EXPECT_EQ(json_of(other, {"--kernel-needs", "specular"})["kernel"], kernel(true, false));
+    EXPECT_TRUE(read_bytes(out) == read_bytes(other));
+    EXPECT_EQ(json_of(other, {"--kernel-needs", "all"})["kernel"], kernel(true, true));
+    EXPECT_TRUE(read_bytes(out) == read_bytes(other));
+}
+
+TEST_F(FastRender, FastMathGivesNearlyTheSamePictureOrSaysThatItIsNotBuilt)
+{
+    const Arguments fastmath = {"--instructions", "fastmath"};
+    const Outcome outcome = run(render(out, "64") + fastmath);
+    if (!fast::has_fast_math()) {
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_EQ(outcome.err, "plumbline: --instructions fastmath: the program was built without it "
+                               "(PLUMBLINE_FAST_MATH_KERNELS in CMake), or this processor lacks its "
+                               "instructions\n");
+        EXPECT_EQ(folder.entries(), 0u);
+        return;
+    }
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    ASSERT_EQ(run(render(other, "64")).status, 0);
+    const images::ExrPicture picture = images::read_exr(out);
+    const images::ExrPicture plain = images::read_exr(other);
+    EXPECT_EQ(picture.metadata.at("device"), "host, fastmath");
+    // The same random numbers: only paths that rounding turns elsewhere differ much.
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < plain.mean.pixels.size(); ++i)
+        if (glm::length(picture.mean.pixels[i] - plain.mean.pixels[i]) >
+            1e-3 * glm::length(plain.mean.pixels[i]))
+            ++different;
+    EXPECT_LE(different, plain.mean.pixels.size() / 20);
+    EXPECT_FALSE(picture.mean == plain.mean);
+
+    const Outcome onwards = run(render(out, "128") + Arguments{"--resume"});
+    EXPECT_EQ(onwards.status, 2);
+    EXPECT_NE(onwards.err.find("its device is 'host, fastmath', not 'host'"), std::string::npos);
+    EXPECT_EQ(run(render(out, "128") + fastmath + Arguments{"--resume"}).status, 0);
 }
 
 TEST_F(FastRender, OptionsReachTheRenderer)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -228,6 +229,7 @@ TEST(Render, JsonIsOneObjectWithWhatAScriptNeeds)
     EXPECT_EQ(json.at("outputs").size(), 2u);
     EXPECT_GT(json.at("seconds").get<double>(), 0.0);
     EXPECT_GT(json.at("cpu_seconds").get<double>(), 0.0);
+    EXPECT_EQ(json.at("builder"), "sah-leaf");
     EXPECT_TRUE(json.at("peak_rss_bytes").is_number_integer());
     EXPECT_GT(json.at("peak_rss_bytes").get<double>(), 1e5);
     ASSERT_EQ(json.at("mean_rgb").size(), 3u);
@@ -238,6 +240,28 @@ TEST(Render, JsonIsOneObjectWithWhatAScriptNeeds)
     for (int i = 0; i < 3; ++i) // the same order of summation; only the printed digits differ
         EXPECT_NEAR(json.at("mean_rgb")[static_cast<std::size_t>(i)].get<double>(), sum[i] / (24 * 16),
                     1e-12);
+}
+
+// The build is not part of `seconds`. A mesh takes longer to build than a batch of one sample takes
+// here.
+TEST(Render, JsonTellsTheBuildFromTheSamples)
+{
+    for (const char* device : {"ref", "host"}) {
+        const TemporaryFolder folder;
+        const auto before = std::chrono::steady_clock::now();
+        const Outcome outcome =
+            run({"render", scene_file("mesh_knot"), "-o", (folder / "a.exr").string(), "--size", "1x1",
+                 "-s", "1", "-t", "1", "--max-edges", "1", "--json", "--device", device});
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - before;
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        const auto json = nlohmann::json::parse(outcome.out);
+        const auto seconds = json.at("seconds").get<double>();
+        const auto build = json.at("build_seconds").get<double>();
+        EXPECT_GT(build, seconds) << device;
+        EXPECT_LT(build + seconds, passed.count()) << device;
+        EXPECT_GT(json.at("build_cpu_seconds").get<double>(), json.at("cpu_seconds").get<double>())
+            << device;
+    }
 }
 
 /// The standard deviation, per channel, of the mean of the whole picture over the batches in `file`.

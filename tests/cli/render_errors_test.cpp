@@ -97,12 +97,23 @@ const std::vector<Mistake> mistakes = {
     {"EndlessPaths", {"render", "SCENE", "-o", "OUT", "--no-roulette"}, "--max-edges"},
     {"UnknownIntegrator", {"render", "SCENE", "-o", "OUT", "--integrator", "magic"}, "--integrator"},
     {"UnknownDevice", {"render", "SCENE", "-o", "OUT", "--device", "abacus"}, "--device"},
-    {"BuilderOfTheFastPath",
-     {"render", "SCENE", "-o", "OUT", "--device", "host", "--builder", "morton30"},
-     "--builder morton30 has no effect with --device host"},
-    {"DefaultBuilderOfTheFastPath", // given although it is the default
+    {"BuilderOfTheReference",
      {"render", "SCENE", "-o", "OUT", "--device", "host", "--builder", "sah-leaf"},
-     "--builder sah-leaf has no effect with --device host"},
+     "--builder sah-leaf has no effect with --device host: its trees are morton30, morton63, hploc30, "
+     "hploc63, hploc\n"},
+    {"BuilderOfTheReferenceOnAGpu",
+     {"render", "SCENE", "-o", "OUT", "--device", "cuda", "--builder", "sah"},
+     "--builder sah has no effect with --device cuda: its trees are morton30,"},
+    {"BuilderOfTheFastPath",
+     {"render", "SCENE", "-o", "OUT", "--builder", "hploc63"},
+     "--builder hploc63 has no effect with --device ref: its trees are morton30, morton63, sah, "
+     "sah-leaf\n"},
+    {"KernelNeedsOfTheReference", // given although it is the default
+     {"render", "SCENE", "-o", "OUT", "--kernel-needs", "scene"},
+     "--kernel-needs scene has no effect with --device ref: it is for the fast path"},
+    {"UnknownKernelNeeds",
+     {"render", "SCENE", "-o", "OUT", "--device", "host", "--kernel-needs", "x"},
+     "--kernel-needs"},
     {"HeuristicOfPaths",
      {"render", "SCENE", "-o", "OUT", "--integrator", "path", "--heuristic", "power"},
      "--heuristic power has no effect with --integrator path"},

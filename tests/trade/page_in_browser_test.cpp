@@ -205,7 +205,7 @@ TEST_F(TradePageInABrowser, FieldsMayBeMissing)
     for (const char* field : {"knobs", "requirements"}) results[field] = Json::array();
     for (const char* field : {"front", "truth", "machine", "noise_of_machine"}) results[field] = nullptr;
     for (Json& c : results["configurations"])
-        for (const char* field : {"bias_squared", "relmse_1s", "efficiency", "time_to_equal_error",
+        for (const char* field : {"bias_squared", "relmse_1s", "efficiency", "time_to_equal_noise",
                                   "speed", "memory", "picture"})
             c[field] = nullptr;
     for (const char* field : {"whole", "worst", "worst_region", "detectable"})

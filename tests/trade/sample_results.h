@@ -94,7 +94,7 @@ inline Json json_of(const SampleConfiguration& c, const SampleConfiguration& bas
     json["bias_squared"] = sample_estimate(1.4 * c.wrong * c.wrong, 0.1 * c.wrong * c.wrong + 2e-6);
     json["relmse_1s"] = scaled_estimate(c.noise * c.sample, 2.0 * spread);
     json["efficiency"] = scaled_estimate(1.0 / (c.noise * c.sample), 2.0 * spread);
-    json["time_to_equal_error"] = is_base ? Json(nullptr) : scaled_estimate(ratio, 2.0 * spread);
+    json["time_to_equal_noise"] = is_base ? Json(nullptr) : scaled_estimate(ratio, 2.0 * spread);
     json["speed"] = is_base ? Json(nullptr) : scaled_estimate(base.sample / c.sample, spread);
     json["memory"] = scaled_estimate(38.0e6 + 4.0e8 * c.build, 0.01);
     json["front"] = is_base;
@@ -132,6 +132,21 @@ inline void add_front(Json& results)
             c["front"] = std::any_of(front.begin(), front.end(),
                                      [&](const Json& f) { return f["configuration"] == c["name"]; });
     results["front"] = front;
+}
+
+/// Replaces the values of a knob, texts, by what the page reads. A value of no configuration is the
+/// base's.
+inline void describe_values(Json& knob, const Json& configurations)
+{
+    knob["reference"] = "base";
+    for (Json& value : knob["values"]) {
+        const Json* found = &configurations[0];
+        for (const Json& c : configurations)
+            if (c["knob"] == knob["name"] && c["value"] == value) found = &c;
+        value = {{"value", value},
+                 {"configuration", (*found)["name"]},
+                 {"time_to_equal_noise", found->value("time_to_equal_noise", Json(nullptr))}};
+    }
 }
 
 inline std::vector<SampleConfiguration> sample_configurations()
@@ -229,6 +244,7 @@ inline Json sample_results()
     const std::vector<SampleConfiguration> all = sample_configurations();
     for (const SampleConfiguration& c : all)
         results["configurations"].push_back(json_of(c, all.front(), 0.1));
+    for (Json& knob : results["knobs"]) describe_values(knob, results["configurations"]);
     add_front(results);
     return results;
 }

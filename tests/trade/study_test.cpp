@@ -64,8 +64,8 @@ TEST(Study, IsDescribedByItsResults)
     const trade::Json& base = json.at("configurations").at(0);
     const trade::Json& noisy = json.at("configurations").at(1);
     const trade::Json& biased = json.at("configurations").at(2);
-    EXPECT_TRUE(base.at("time_to_equal_error").is_null());
-    EXPECT_NEAR(noisy.at("time_to_equal_error").at("value"), 4.0, 0.8);
+    EXPECT_TRUE(base.at("time_to_equal_noise").is_null());
+    EXPECT_NEAR(noisy.at("time_to_equal_noise").at("value"), 4.0, 0.8);
     EXPECT_NEAR(noisy.at("speed").at("value"), 1.0, 0.2);
     EXPECT_EQ(base.at("bias").at("verdict"), "none found");
     EXPECT_EQ(biased.at("bias").at("verdict"), "biased");

@@ -25,7 +25,9 @@ function timeFor(c, n) { // seconds for n samples per pixel, build included
   return { value: build.value + n * render.value, low: build.low + n * render.low, high: build.high + n * render.high };
 }
 function errorAt(c, n) { // relMSE of n samples per pixel
-  const noise = estimate(c.noise), bias = estimate(c.bias_squared) ?? { value: 0, low: 0, high: 0 };
+  // Noise in the estimate of the bias of one that is not biased would look like a limit of its error.
+  const none = { value: 0, low: 0, high: 0 };
+  const noise = estimate(c.noise), bias = kindOf(c) === "biased" ? estimate(c.bias_squared) ?? none : none;
   const sum = key => noise[key] / n + Math.max(0, bias[key]);
   return { value: sum("value"), low: sum("low"), high: sum("high") };
 }

@@ -1,20 +1,18 @@
 "use strict";
-// One panel per knob: its configurations beside the base, a row each.
+// One panel per knob: its configurations beside the reference of the knob, a row each.
 const panelBox = { width: 560, row: 26, top: 6, bottom: 44, first: [152, 338], second: [372, 540] };
 
-/// The rows of a knob in the order of its values. The base stands in the row of the value that no other
-/// configuration has; if there is none or more than one, it has a row of its own.
+/// The rows of a knob in the order of its values.
 function rowsOf(knob) {
-  const own = configurations.filter(c => c.knob === knob.name && !c.base);
-  const values = (knob.values ?? []).map(String);
-  const missing = values.filter(v => !own.some(c => String(c.value) === v));
-  const place = c => { const i = values.indexOf(String(c.value)); return i < 0 ? values.length : i; };
-  const rows = own.map(c => ({ c, label: String(c.value), place: place(c) }));
-  if (base) rows.push({ c: base, isBase: true, label: missing.length === 1 ? missing[0] : "base", place: missing.length === 1 ? values.indexOf(missing[0]) : -1 });
-  return rows.sort((a, b) => a.place - b.place);
+  const rows = [];
+  for (const v of Array.isArray(knob.values) ? knob.values : []) {
+    const c = configurations.find(c => c.name === v?.configuration);
+    if (c) rows.push({ c, label: String(v.value), isReference: c.name === knob.reference, time: estimate(v.time_to_equal_noise) });
+  }
+  return rows;
 }
 
-const ratioOf = row => row.isBase ? { value: 1, low: 1, high: 1 } : estimate(row.c.time_to_equal_error);
+const ratioOf = row => row.isReference ? { value: 1, low: 1, high: 1 } : row.time;
 const errorOf = row => estimate(row.c.bias?.whole);
 
 /// A range about the middle that holds all estimates; the intervals as far as three times the values.
@@ -25,7 +23,7 @@ function rangeAbout(estimates, least) {
 
 function drawKnobs() {
   const knobs = (Array.isArray(results.knobs) ? results.knobs : []).filter(k => k && k.name);
-  if (!base || knobs.length === 0) return;
+  if (knobs.length === 0) return;
   byId("knob-section").hidden = false;
   const all = knobs.map(knob => ({ knob, rows: rowsOf(knob) })).filter(k => k.rows.length > 1 || k.knob.sentence);
   // The axis of time is the same in all panels, symmetrical about 1, and holds all that are not biased: a biased one may
@@ -35,7 +33,8 @@ function drawKnobs() {
   const reach = Math.exp(rangeAbout(logs, Math.log(2)));
   for (const { knob, rows } of all) {
     const panel = element("div", { class: "knob" }, element("h3", { class: "mono" }, knob.name), element("p", { class: "what" }, knob.what ?? ""),
-      element("p", {}, knob.sentence ?? ""));
+      element("p", {}, knob.sentence ?? ""),
+      element("p", { class: "what" }, knob.reference && knob.reference !== base?.name ? "Compared with " + knob.reference + "." : ""));
     const plot = element("div", { class: "plot" });
     panel.append(plot);
     byId("knobs").append(panel);
@@ -55,7 +54,7 @@ function drawPanel(plot, rows, reach) {
   const ratioTicks = reach > 30 ? logTicks([1 / reach, reach]).filter(t => Math.abs(Math.log10(t) % 1) < 1e-9)
     : [1 / 16, 1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16].filter(t => t > 1 / reach && t < reach && (reach < 10 || Math.log2(t) % 2 === 0));
   const fraction = t => t < 1 ? "1/" + number(1 / t, 1) : number(t, 1);
-  drawPanelAxis(svg, ratio, ratioTicks, fraction, 1, end, "time to equal noise, base = 1");
+  drawPanelAxis(svg, ratio, ratioTicks, fraction, 1, end, "time to equal noise");
   drawPanelAxis(svg, error, [-1, 0, 1].map(k => k * niceBelow(errorReach)), t => t === 0 ? "0" : percent(t).replace(/\.?0+%/, "%"), 0, end, "error of the mean");
   rows.forEach((r, i) => {
     const y = top + (i + 0.5) * row;
@@ -100,7 +99,7 @@ function drawEstimate(svg, scale, e, y, row, say) {
   g.append("path").attr("class", "bar").attr("d", `M${scale(e.low)},${y}H${scale(e.high)}`);
   const place = g.append("g").attr("transform", `translate(${scale(e.value)},${y})`);
   addMark(place, kind, 0.65);
-  if (row.isBase) place.append("circle").attr("class", "ring").attr("r", 8.5);
+  if (row.isReference) place.append("circle").attr("class", "ring").attr("r", 8.5);
 }
 
 /// Cuts the text to `room`, with the whole of it as a tooltip.

@@ -150,7 +150,7 @@ function tipContent({ c, kind, x, y }) {
   const row = (name, text) => element("tr", {}, element("td", {}, name), element("td", {}, text));
   const rows = [row("verdict", kinds[kind]), row("time", withRange(x, seconds)), row("error", withRange(y, number)),
     row("its noise part", withRange(scaled(c.noise, 1 / samples), number)), row("error of the mean", withRange(c.bias?.whole, percent))];
-  if (estimate(c.time_to_equal_error)) rows.push(row("time to equal noise", withRange(c.time_to_equal_error, times) + " of the base"));
+  if (estimate(c.time_to_equal_noise)) rows.push(row("time to equal noise", withRange(c.time_to_equal_noise, times) + " of the base"));
   rows.push(row("efficiency", withRange(c.efficiency, number)));
   if (c.skewed) rows.push(row("caution", "the noise is heavy-tailed: its interval is not reliable"));
   return [element("strong", {}, c.name), element("span", { class: "mono" }, c.command ?? ""), element("table", {}, ...rows)];

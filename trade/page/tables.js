@@ -40,7 +40,7 @@ const one = { value: 1, low: 1, high: 1 };
 const columns = [
   { head: "configuration", key: c => c.name, cell: c => element("td", {}, c.name) },
   { head: "verdict", key: c => c.bias?.verdict, cell: c => element("td", { class: kindOf(c) }, element("span", { class: `badge ${kindOf(c)}`, title: c.bias?.reason ?? "" }, c.bias?.verdict ?? none)) },
-  estimateColumn("time to equal noise", c => c === base ? one : c.time_to_equal_error, times),
+  estimateColumn("time to equal noise", c => c === base ? one : c.time_to_equal_noise, times),
   estimateColumn("efficiency, 1/(relMSE s)", c => c.efficiency, number),
   estimateColumn("speed", c => c === base ? one : c.speed, times),
   estimateColumn("error of the mean", c => c.bias?.whole, percent),

@@ -352,7 +352,7 @@ TEST(Needs, OfARendererAreThoseThatItsKernelsAreCompiledFor)
 {
     const auto needs_of = [](const char* scene, fast::Needs at_least = {}) {
         return fast::host_renderer(our_scene(scene), width, height, short_paths(Integrator::path), 1,
-                                   fast::best_instruction_set(), at_least)
+                                   {.at_least = at_least})
             ->needs();
     };
     EXPECT_EQ(needs_of("mesh_knot"), fast::Needs{});
@@ -364,6 +364,39 @@ TEST(Needs, OfARendererAreThoseThatItsKernelsAreCompiledFor)
     doubled.triangles.push_back(doubled.triangles.front()); // surfaces that coincide, alone
     EXPECT_EQ(fast::host_renderer(doubled, width, height, short_paths(Integrator::path), 1)->needs(),
               fast::any_needs);
+}
+
+TEST(RendererOptions, ChangeNoBitOfAPicture)
+{
+    for (const std::string& name : transport_test::our_scene_names()) {
+        const scenes::Scene scene = our_scene(name);
+        for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
+            auto options = short_paths(integrator);
+            options.deterministic = true;
+            const auto picture = [&](const fast::RendererOptions& choices) {
+                return fast::host_renderer(scene, width, height, options, 1, choices)
+                    ->render_batch(0, {})
+                    ->mean;
+            };
+            const images::Image expected = picture({});
+            for (const fast::TreeBuilder tree : fast::tree_builders)
+                EXPECT_TRUE(picture({.tree = tree}) == expected) << name << ", " << name_of(tree);
+            for (std::size_t i = 0; i < fast::compiled_needs.size(); ++i)
+                EXPECT_TRUE(picture({.at_least = fast::compiled_needs[i]}) == expected)
+                    << name << ", kernel " << i;
+        }
+    }
+}
+
+TEST(RendererOptions, DecideOnTheTree)
+{
+    const auto tree_of = [](const fast::RendererOptions& choices) {
+        return fast::host_renderer(our_scene("mesh_knot"), width, height, short_paths(Integrator::path),
+                                   1, choices)
+            ->tree();
+    };
+    EXPECT_EQ(tree_of({}), fast::TreeBuilder::hploc63);
+    for (const fast::TreeBuilder tree : fast::tree_builders) EXPECT_EQ(tree_of({.tree = tree}), tree);
 }
 
 // scenes::requirements decides which kernel is used. Black lights require nothing.

@@ -243,7 +243,8 @@ TEST_F(StagesOnDevice, HaveTheBitsOfWholeSamples)
         const scenes::Scene scene = our_scene(name);
         for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
             const auto batch_by = [&](fast::DeviceKernels kernels) {
-                return *fast::device_renderer(scene, 120, 80, options_for(integrator), kernels)
+                return *fast::device_renderer(scene, 120, 80, options_for(integrator),
+                                              {.kernels = kernels})
                             ->render_batch(1, {});
             };
             const images::Batch whole = batch_by(fast::DeviceKernels::samples);

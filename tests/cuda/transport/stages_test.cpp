@@ -57,7 +57,8 @@ TEST_P(Staged, SamplesHaveTheBitsOfWholeSamples)
             const images::Batch expected = whole_samples(scene, width, height, options);
             for (const fast::InstructionSet set : fast::instruction_sets())
                 for (const unsigned threads : {1u, 3u})
-                    expect_same(*fast::host_renderer(scene, width, height, options, threads, set)
+                    expect_same(*fast::host_renderer(scene, width, height, options, threads,
+                                                     {.instructions = set})
                                      ->render_batch(3, {}),
                                 expected,
                                 "integrator " + std::to_string(static_cast<int>(integrator)) + ", " +
@@ -68,6 +69,14 @@ TEST_P(Staged, SamplesHaveTheBitsOfWholeSamples)
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Staged, testing::ValuesIn(transport_test::our_scene_names()),
                          [](const auto& tested) { return tested.param; });
+
+TEST(InstructionSets, OfTheSameBitsAreWithoutFastMath)
+{
+    for (const fast::InstructionSet set : fast::instruction_sets())
+        EXPECT_NE(set, fast::InstructionSet::fastmath);
+    EXPECT_NE(fast::best_instruction_set(), fast::InstructionSet::fastmath);
+    EXPECT_EQ(name_of(fast::InstructionSet::fastmath), "fastmath");
+}
 
 class EveryInstructionSet : public testing::TestWithParam<images::Integrator> {};
 
@@ -81,7 +90,8 @@ TEST_P(EveryInstructionSet, GivesTheSameDeterministicPicture)
     for (const char* name : {"cornell_glass", "all_emitters"}) {
         const scenes::Scene scene = our_scene(name);
         const auto render = [&](unsigned threads, fast::InstructionSet set) {
-            return *fast::host_renderer(scene, 16, 12, options, threads, set)->render_batch(0, {});
+            return *fast::host_renderer(scene, 16, 12, options, threads, {.instructions = set})
+                        ->render_batch(0, {});
         };
         const images::Batch expected = render(1, fast::InstructionSet::baseline);
         for (const fast::InstructionSet set : fast::instruction_sets())

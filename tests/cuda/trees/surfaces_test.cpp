@@ -14,7 +14,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <type_traits>
+#include <utility>
 
 namespace {
 
@@ -111,8 +113,9 @@ RC_GTEST_PROP(Surfaces, AreHitWhereTheLinearSearchHitsThem, ())
     fast::HostMemory memory;
     fast::SerialExecutor serial;
     fast::ThreadedExecutor threads(3, 1);
-    const SurfaceTree tree(memory, serial, shapes.triangles, shapes.spheres);
-    const SurfaceTree same(memory, threads, shapes.triangles, shapes.spheres);
+    const fast::TreeBuilder builder = *rc::gen::elementOf(fast::tree_builders);
+    const SurfaceTree tree(memory, serial, shapes.triangles, shapes.spheres, builder);
+    const SurfaceTree same(memory, threads, shapes.triangles, shapes.spheres, builder);
     RC_ASSERT(tree.has_spheres() == !shapes.spheres.empty());
     for (int i = 0; i < 50; ++i) {
         const Ray ray = some_ray(shapes, random);
@@ -163,6 +166,44 @@ TEST(Surfaces, OneOrNoneNeedsNoTree)
     EXPECT_TRUE(occluded(one.view<true>(), ray));
     EXPECT_FALSE(occluded(one.view<true>(), {Vec3(0), 2, Vec3(0, 0, 1)}));
     EXPECT_NEAR(one.diagonal(), std::sqrt(12.0), 1e-5);
+}
+
+/// Triangles in boxes that are nested in each other, in the order of their centroids on the curve of 63
+/// bits: 16 have the same centroid, and each next centroid differs from the first in one bit more. So
+/// the radix tree is as deep as it can be, and on each of its levels clusters are merged one by one.
+std::vector<Triangle> nested_triangles()
+{
+    std::vector<Triangle> triangles;
+    const auto add = [&](const Vec3& centre, float extent) {
+        triangles.push_back(
+            {{centre - extent, centre + Vec3(-extent, extent, extent), centre + extent}});
+    };
+    for (int bit = 0; bit <= 63; ++bit)
+        for (int i = 0; i < 16; ++i) {
+            Vec3 centre(0);
+            if (bit < 63) centre[bit % 3] = std::ldexp(1.0f, -1 - bit / 3);
+            add(centre, 1 + static_cast<float>(63 - bit) / 64 + static_cast<float>(i) / 2048);
+        }
+    add(Vec3(1), 2.5f);
+    return triangles;
+}
+
+TEST(Surfaces, WhoseClusteredTreeIsTooDeepHaveTheRadixTree)
+{
+    using enum fast::TreeBuilder;
+    const Shapes nested{nested_triangles(), {}};
+    fast::HostMemory memory;
+    fast::SerialExecutor serial;
+    Random random(1);
+    for (const auto& [asked, given] :
+         {std::pair{hploc63, morton63}, std::pair{hploc30, hploc30}, std::pair{morton63, morton63}}) {
+        const SurfaceTree tree(memory, serial, nested.triangles, {}, asked);
+        EXPECT_EQ(tree.builder(), given);
+        for (int i = 0; i < 20; ++i) {
+            const Ray ray = some_ray(nested, random);
+            EXPECT_TRUE(finds(tree.view<false>(), ray, linear_search_of(nested, ray)));
+        }
+    }
 }
 
 TEST(Surfaces, ThatAreAskedByNoRayAnswerThatNothingIsHit)

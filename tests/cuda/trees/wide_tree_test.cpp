@@ -10,8 +10,12 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <cstring>
+#include <map>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -24,9 +28,11 @@ using fast::WideNode;
 using fast::WideTree;
 using trees_test::Random;
 
-/// A narrow tree over random triangles, some of them coincident.
+/// A narrow tree over random triangles, some of them coincident. `one_is_far`: so far away that all
+/// others have the same code of 30 bits.
 struct Narrow {
-    Narrow(std::size_t n, Random& random) : tree(memory, executor, static_cast<std::uint32_t>(n))
+    Narrow(std::size_t n, Random& random, bool one_is_far = false)
+        : tree(memory, executor, static_cast<std::uint32_t>(n))
     {
         for (std::size_t i = 0; i < n; ++i) {
             const ref::Vec3 at = random.in_cube();
@@ -35,6 +41,8 @@ struct Narrow {
             for (Vec3& vertex : triangle.vertices) vertex = Vec3(at + size * random.in_cube());
             triangles.push_back(i > 0 && random.below(8) == 0 ? triangles[random.below(i)] : triangle);
         }
+        if (one_is_far && n > 0)
+            for (Vec3& vertex : triangles[0].vertices) vertex += Vec3(1e4f);
         boxes.resize(n);
         executor(static_cast<std::uint32_t>(n), fast::BoundTriangles{triangles, boxes});
         tree.build(executor, boxes);
@@ -115,21 +123,77 @@ bool same_groups(std::span<const TriangleGroup> a, std::span<const TriangleGroup
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
+/// Checks that the tree over the triangles of `narrow` is valid.
+void check_tree(const fast::WideTreeView& tree, const Narrow& narrow)
+{
+    Census census{std::vector<int>(narrow.triangles.size())};
+    std::uint32_t primitives = 0;
+    if (!tree.nodes.empty())
+        check_below(tree, narrow, 0, census, primitives);
+    else if (!tree.groups.empty())
+        check_below(tree, narrow, fast::leaf_bit, census, primitives);
+    RC_ASSERT(primitives == narrow.triangles.size());
+    for (const int times : census.seen) RC_ASSERT(times == 1);
+    RC_ASSERT(census.nodes == tree.nodes.size()); // no unnecessary nodes
+    RC_ASSERT(census.groups == tree.groups.size());
+}
+
 RC_GTEST_PROP(WideTree, HoldsEveryPrimitiveOnceInBoxesThatFit, ())
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     Narrow narrow(*rc::gen::inRange<std::size_t>(0, 300), random);
-    const WideTree tree = narrow.widened(narrow.executor);
-    Census census{std::vector<int>(narrow.triangles.size())};
-    std::uint32_t primitives = 0;
-    if (!tree.view().nodes.empty())
-        check_below(tree.view(), narrow, 0, census, primitives);
-    else if (!tree.view().groups.empty())
-        check_below(tree.view(), narrow, fast::leaf_bit, census, primitives);
-    RC_ASSERT(primitives == narrow.triangles.size());
-    for (const int times : census.seen) RC_ASSERT(times == 1);
-    RC_ASSERT(census.nodes == tree.view().nodes.size()); // no unnecessary nodes
-    RC_ASSERT(census.groups == tree.view().groups.size());
+    check_tree(narrow.widened(narrow.executor).view(), narrow);
+}
+
+/// The wide trees over the radix tree of `Code`, and over its clusters.
+template <class Code>
+std::array<WideTree, 2> widened_by_codes(Narrow& narrow)
+{
+    const auto count = static_cast<std::uint32_t>(narrow.triangles.size());
+    fast::Lbvh<Code> sorted(narrow.memory, narrow.executor, count);
+    sorted.build(narrow.executor, narrow.boxes);
+    fast::Hploc clustered(narrow.memory, count);
+    WideTree radix{narrow.memory, narrow.executor, std::as_const(sorted).nodes(), sorted.primitives(),
+                   narrow.triangles};
+    clustered.build(narrow.executor, narrow.boxes, sorted);
+    return {std::move(radix), WideTree{narrow.memory, narrow.executor, std::as_const(clustered).nodes(),
+                                       sorted.primitives(), narrow.triangles}};
+}
+
+RC_GTEST_PROP(SurfaceTree, IsTheWideTreeOfItsBuilder, ())
+{
+    Random random(*rc::gen::arbitrary<std::uint64_t>());
+    Narrow narrow(*rc::gen::inRange<std::size_t>(0, 300), random, random.below(2) == 0);
+    const auto [morton30, hploc30] = widened_by_codes<std::uint32_t>(narrow);
+    const auto [morton63, hploc63] = widened_by_codes<std::uint64_t>(narrow);
+    const std::map<fast::TreeBuilder, const WideTree*> expected = {
+        {fast::TreeBuilder::morton30, &morton30},
+        {fast::TreeBuilder::morton63, &morton63},
+        {fast::TreeBuilder::hploc30, &hploc30},
+        {fast::TreeBuilder::hploc63, &hploc63}};
+    for (const fast::TreeBuilder builder : fast::tree_builders) {
+        const fast::SurfaceTree surfaces(narrow.memory, narrow.executor, narrow.triangles, {}, builder);
+        const fast::WideTreeView tree = surfaces.view<false>().tree;
+        check_tree(tree, narrow);
+        RC_ASSERT(same_nodes(tree.nodes, expected.at(builder)->view().nodes));
+        RC_ASSERT(same_groups(tree.groups, expected.at(builder)->view().groups));
+    }
+}
+
+// The test above would not see two builders exchanged if their trees were the same.
+TEST(SurfaceTree, OfTwoBuildersDiffer)
+{
+    Random random(1);
+    Narrow narrow(300, random, true);
+    std::vector<fast::SurfaceTree> trees;
+    for (const fast::TreeBuilder builder : fast::tree_builders)
+        trees.emplace_back(narrow.memory, narrow.executor, narrow.triangles,
+                           std::span<const fast::Sphere>(), builder);
+    for (std::size_t i = 0; i < trees.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            EXPECT_FALSE(
+                same_nodes(trees[i].view<false>().tree.nodes, trees[j].view<false>().tree.nodes))
+                << name_of(fast::tree_builders[i]) << ", " << name_of(fast::tree_builders[j]);
 }
 
 RC_GTEST_PROP(WideTree, IsTheSameForEveryExecutor, ())
