@@ -71,7 +71,8 @@ void add_picture_options(CLI::App& command, RenderCommand& options)
 {
     command.add_option("scene", options.scene, "COLLADA file; -: standard input")->required();
     command.add_option("-o,--output", options.outputs, "Picture: .exr, .pfm or .png; may be repeated")
-        ->required();
+        ->required()
+        ->option_text("TEXT REQUIRED"); // "..." as well would take a line of its own
     command.add_option("--size", options.size, "Width x height in pixels")->capture_default_str();
     command
         .add_option("-s,--samples", options.samples,
