@@ -8,6 +8,7 @@
 #include "cli/run_self.h"
 #include "cli/scene_input.h"
 #include "cli/trade_knobs.h"
+#include "cli/trade_needs.h"
 #include "cli/trade_truth.h"
 #include "images/atomic_file.h"
 #include "images/exposure.h"
@@ -113,6 +114,8 @@ ExitStatus trade_command(TradeCommand options, const std::string& command)
     const scenes::Scene scene = load_scene(options.scene, options.frame, options.quiet);
     TradeView view{options.scene, options.size, options.frame};
     Settings base = base_of(options.base);
+    if (options.needs)
+        for (const std::string& knob : needs_knobs(scene)) options.knobs.push_back(knob);
     catch_interrupts();
 
     // Errors of names are found before anything takes long.
@@ -147,7 +150,10 @@ ExitStatus trade_command(TradeCommand options, const std::string& command)
         }
 
     const auto results = [&] {
-        return trade::results(description, study, configurations, plan.knobs, truth, measured);
+        trade::Json json =
+            trade::results(description, study, configurations, plan.knobs, truth, measured);
+        json["requirements"] = needs_rows(scene, plan, measured);
+        return json;
     };
     const auto keep = [&] {
         if (!options.output.empty()) images::write_atomically(options.output, results().dump(1) + "\n");

@@ -22,6 +22,7 @@ struct TradeCommand {
     std::uint64_t seed = 1;
     std::vector<std::string> base;  // "integrator=bdpt"
     std::vector<std::string> knobs; // "threads", "max-edges=2,4"; empty: the usual ones
+    bool needs = false;             // measure what the scene does not require
     std::string output;             // .json
     std::string report;             // .html
     bool resume = false;

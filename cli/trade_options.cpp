@@ -35,6 +35,8 @@ void add_trade_options(CLI::App& command, TradeCommand& options)
                        "What is varied, as OPTION=VALUE ... [device=host threads=1 integrator=path]");
     command.add_option("--knobs", options.knobs,
                        "What to vary, as NAME or NAME=VALUE,VALUE ...; or all [those with a star]");
+    command.add_flag("--needs", options.needs,
+                     "Vary what the scene does not require: what does leaving it out gain?");
     command.add_option("-o,--output", options.output, "Results: .json");
     command.add_option("--report", options.report, "Page for people, without other files: .html");
     command.add_flag("--resume", options.resume, "Go on with the measurements in the output");

@@ -74,6 +74,15 @@ std::string table(const Json& results)
     for (const Json& knob : results.at("knobs"))
         text +=
             knob.at("name").get<std::string>() + ": " + knob.at("sentence").get<std::string>() + '\n';
+    if (results.contains("requirements")) {
+        text += "\nWhat the scene requires:\n";
+        for (const Json& row : results.at("requirements")) {
+            const std::string sentence = row.at("sentence");
+            text += "  " + row.at("what").get<std::string>() + ": " + row.at("has").get<std::string>() +
+                    "; left out: " + row.at("left_out").get<std::string>() +
+                    (sentence.empty() ? "" : ". " + sentence) + '\n';
+        }
+    }
     if (const Json& noise = results.at("noise_of_machine"); noise.is_object())
         text += noise.at("sentence").get<std::string>() + '\n';
     return text;

@@ -135,6 +135,7 @@ function showNotices() {
     byId("interrupted").textContent = "Interrupted: the measurement ended before all rounds were done. The intervals are wider than intended.";
   }
 }
+if (location.hash === "#plot") document.body.classList.add("plot-only");
 addFacts();
 addLead();
 showNotices();
