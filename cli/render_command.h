@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "images/render_options.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ struct RenderCommand {
     std::string kernels = "samples";
     std::string integrator = "path";
     std::string builder = "sah-leaf";
+    std::size_t leaf_size = 8; // of the builder sah-leaf
     std::string heuristic = "balance";
     int max_edges = images::unlimited_edges;
     bool no_roulette = false;
