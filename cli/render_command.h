@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "images/render_options.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ struct RenderCommand {
     std::string kernel_needs = "scene";
     std::string integrator = "path";
     std::string builder; // empty: the default of the device (builders.h)
+    std::size_t leaf_size = 8; // of the builder sah-leaf
     std::string heuristic = "balance";
     int max_edges = images::unlimited_edges;
     bool no_roulette = false;

@@ -11,8 +11,8 @@
 namespace cli {
 
 /// All parameters that the picture depends on. They must be equal for one render to continue another.
-/// Threads and tree builder change no bit and are not among them. Parameters that were added later have
-/// no entry where they are at their defaults, so that files of those stay as they were.
+/// Threads, tree builder and size of leaves change no bit and are not among them. Parameters that were
+/// added later have no entry where they are at their defaults, so that files of those stay as they were.
 images::Metadata describe(const RenderCommand& options, const scenes::Scene& scene);
 
 /// `metadata` with the entries that `describe` leaves out at their defaults.

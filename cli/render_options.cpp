@@ -81,7 +81,7 @@ void add_picture_options(CLI::App& command, RenderCommand& options)
         ->capture_default_str();
     command
         .add_option("--batch", options.batch_size,
-                    "In a batch, the unit of error and resuming [up to 4, dividing -s]")
+                    "Samples in a batch, unit of error and resuming [up to 4, dividing -s]")
         ->check(CLI::Range(1u, 1u << 20).description(""));
 }
 
@@ -130,8 +130,13 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
         ->check(one_of(all_builder_names()))
         ->capture_default_str();
     command
+        .add_option("--leaf-size", options.leaf_size,
+                    "Most primitives in a leaf of sah-leaf, 1 to 64; changes no bit")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{64}).description(""))
+        ->capture_default_str();
+    command
         .add_option("--heuristic", options.heuristic,
-                    "Weights of bdpt: balance, power or uniform (biased)")
+                    "Weights of bdpt: balance, power or, for ref, uniform (biased)")
         ->check(one_of({"balance", "power", "uniform"}))
         ->capture_default_str();
     command
@@ -141,14 +146,14 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
     command.add_flag("--no-roulette", options.no_roulette, "No Russian roulette");
     command
         .add_option("--roulette-from", options.roulette_from,
-                    "The first bounce that roulette may end, at least 1")
+                    "For ref: the first bounce that roulette may end, at least 1")
         ->check(CLI::Range(1, 1 << 20).description(""))
         ->capture_default_str();
     command.add_option("--epsilon", options.epsilon,
-                       "Leave surfaces by this fixed distance: a warning example");
+                       "For ref: leave surfaces by this fixed distance, a warning example");
     command
         .add_option("--without", options.without,
-                    "Leave out emission_hit, next_event, light_image or inner_connection")
+                    "For ref: omit emission_hit, next_event, light_image, inner_connection")
         ->allow_extra_args(false)
         ->check(one_of(family_names()));
     command.add_option("--seed", options.seed, "Seed of the random numbers")

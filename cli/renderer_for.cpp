@@ -71,7 +71,8 @@ std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, con
     const images::RenderOptions plan = render_options(options);
     if (options.device == "ref")
         return ref::renderer(scene, size.width, size.height, plan, options.threads,
-                             builder_named(reference_builder(options)), epsilon_in(scene, options));
+                             {builder_named(reference_builder(options)), options.leaf_size},
+                             epsilon_in(scene, options));
     if (!options.quiet)
         for (const std::string& notice : fast::float_notices(scene))
             std::cerr << shown_name(options.scene) << ": " << notice << '\n';

@@ -121,6 +121,14 @@ const std::array knob_rules = {
              [](const Settings&) {
                  return Values{"sah-leaf", "sah", "morton63", "morton30"};
              }},
+    KnobRule{"leaf-size",
+             "the most primitives in a leaf of the reference's tree sah-leaf",
+             false,
+             "8",
+             {{"device", "ref"}},
+             [](const Settings&) {
+                 return Values{"1", "2", "4", "8", "16"};
+             }},
     KnobRule{"heuristic",
              "weights of bdpt: balance, power (squares), or uniform (a known mistake)",
              false,
@@ -169,6 +177,8 @@ void drop_idle(Settings& settings)
         drop({"without", "roulette-from", "epsilon"});
         if (is(settings, "heuristic", "uniform")) drop({"heuristic"});
     }
+    if (settings.contains("builder") || is(settings, "device", "host") || is(settings, "device", "cuda"))
+        drop({"leaf-size"});
     if (!is(settings, "integrator", "bdpt")) drop({"heuristic"});
     if (is(settings, "device", "cuda")) drop({"threads"});
 }

@@ -36,9 +36,9 @@ private:
 class SceneRenderer : private World, public RefRenderer {
 public:
     SceneRenderer(const scenes::Scene& source, int width, int height,
-                  const images::RenderOptions& options, unsigned threads, Builder builder,
+                  const images::RenderOptions& options, unsigned threads, const BuildOptions& tree,
                   double epsilon)
-        : World(source, width, height, builder, epsilon),
+        : World(source, width, height, tree, epsilon),
           RefRenderer(static_cast<const World&>(*this), integrator_of(options.integrator), options,
                       threads)
     {}
@@ -67,9 +67,9 @@ std::unique_ptr<images::Renderer> renderer(const World& world, Integrator integr
 
 std::unique_ptr<images::Renderer> renderer(const scenes::Scene& scene, int width, int height,
                                            const images::RenderOptions& options, unsigned threads,
-                                           Builder builder, double epsilon)
+                                           const BuildOptions& tree, double epsilon)
 {
-    return std::make_unique<SceneRenderer>(scene, width, height, options, threads, builder, epsilon);
+    return std::make_unique<SceneRenderer>(scene, width, height, options, threads, tree, epsilon);
 }
 
 } // namespace ref

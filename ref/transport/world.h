@@ -26,9 +26,9 @@ struct World {
     Camera camera;
     std::vector<std::uint32_t> eye_on; // surfaces that the eye lies on
 
-    World(const scenes::Scene& source, int width, int height, Builder builder = Builder::sah_leaf,
-          double epsilon = 0.0)
-        : scene(source), geometry(source, builder, scenes::coincidences(source), epsilon),
+    World(const scenes::Scene& source, int width, int height,
+          const BuildOptions& tree = Builder::sah_leaf, double epsilon = 0.0)
+        : scene(source), geometry(source, tree, scenes::coincidences(source), epsilon),
           emitters(geometry), camera(source.camera.value(), width, height),
           eye_on(scenes::surfaces_at(source, source.camera->eye))
     {

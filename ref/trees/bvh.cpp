@@ -85,10 +85,11 @@ std::vector<std::uint64_t> morton_codes(std::span<const Aabb> boxes, int bits_pe
     return codes;
 }
 
-Tree build(std::span<const Aabb> boxes, Builder builder)
+Tree build(std::span<const Aabb> boxes, const BuildOptions& options)
 {
     check(boxes);
-    switch (builder) {
+    if (options.max_leaf_size < 1) throw std::invalid_argument("a leaf has at least one primitive");
+    switch (options.builder) {
     case Builder::morton30:
         return build_lbvh(boxes, 10);
     case Builder::morton63:
@@ -96,7 +97,7 @@ Tree build(std::span<const Aabb> boxes, Builder builder)
     case Builder::sah:
         return build_sah(boxes);
     case Builder::sah_leaf:
-        return build_sah(boxes, 8);
+        return build_sah(boxes, options.max_leaf_size);
     }
     throw std::invalid_argument("no such builder");
 }

@@ -13,9 +13,9 @@
 
 namespace ref {
 
-Geometry::Geometry(const scenes::Scene& scene, Builder builder, scenes::Coincidences coincident,
+Geometry::Geometry(const scenes::Scene& scene, const BuildOptions& tree, scenes::Coincidences coincident,
                    double epsilon)
-    : scene_(&scene), tree_(build(primitive_bounds(scene), builder)), coincident_(std::move(coincident)),
+    : scene_(&scene), tree_(build(primitive_bounds(scene), tree)), coincident_(std::move(coincident)),
       epsilon_(epsilon)
 {
     if (!(epsilon >= 0.0 && epsilon <= 1e100))

@@ -13,7 +13,7 @@
 namespace ref {
 
 /// The triangles and spheres of a scene, prepared for ray queries. It keeps a reference to the scene,
-/// which must outlive it. The builder changes only the time of a query, not its answer.
+/// which must outlive it. The tree changes only the time of a query, not its answer.
 class Geometry {
 public:
     /// `coincident`: surfaces that lie in the same place (scenes/contacts.h). Between two coincident
@@ -21,7 +21,7 @@ public:
     /// fixed distance of a warning example, up to 1e100; see leave_surface. Throws
     /// std::invalid_argument for another epsilon, and for a coordinate that is NaN or infinite: it names
     /// the first such primitive.
-    explicit Geometry(const scenes::Scene& scene, Builder builder = Builder::sah_leaf,
+    explicit Geometry(const scenes::Scene& scene, const BuildOptions& tree = Builder::sah_leaf,
                       scenes::Coincidences coincident = {}, double epsilon = 0.0);
     [[nodiscard]] const scenes::Scene& scene() const { return *scene_; }
     [[nodiscard]] const Tree& tree() const { return tree_; }

@@ -391,6 +391,8 @@ TEST(Render, TheBuilderOfTheTreeChangesNoByteOfAFileAndAnotherOneMayGoOn)
     EXPECT_GT(expected.size(), 1000u);
     for (const char* builder : {"morton30", "morton63", "sah", "sah-leaf"})
         EXPECT_TRUE(expected == rendered(builder, "8", {"--builder", builder})) << builder;
+    for (const char* size : {"1", "2", "16"})
+        EXPECT_TRUE(expected == rendered("leaves", "8", {"--leaf-size", size})) << size;
     EXPECT_FALSE(expected == rendered("resumed", "4", {"--builder", "morton30"}));
     EXPECT_TRUE(expected == rendered("resumed", "8", {"--builder", "sah", "--resume"}));
 }

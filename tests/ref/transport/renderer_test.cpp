@@ -64,7 +64,7 @@ TEST(Render, DoesNotDependOnTheBuilderOfTheTreeEvenWhereTwoHitsAreEquallyFar)
     doubled.materials.emplace_back(scenes::Lambertian{Rgb(0.9, 0.1, 0.1)});
     for (std::size_t i = scene().triangles.size(); i-- > 0;)
         doubled.triangles.push_back({scene().triangles[i].vertices, red});
-    const auto rendered_by = [&](ref::Builder builder, ref::Integrator integrator) {
+    const auto rendered_by = [&](const ref::BuildOptions& builder, ref::Integrator integrator) {
         const ref::World world(doubled, width, height, builder);
         images::Film film(width, height);
         EXPECT_TRUE(
@@ -75,6 +75,8 @@ TEST(Render, DoesNotDependOnTheBuilderOfTheTreeEvenWhereTwoHitsAreEquallyFar)
         const images::Film expected = rendered_by(ref::Builder::sah_leaf, integrator);
         for (const auto builder : {ref::Builder::morton30, ref::Builder::morton63, ref::Builder::sah})
             EXPECT_EQ(expected, rendered_by(builder, integrator));
+        for (const std::size_t leaf_size : {1, 2, 16})
+            EXPECT_EQ(expected, rendered_by({ref::Builder::sah_leaf, leaf_size}, integrator));
     }
 }
 

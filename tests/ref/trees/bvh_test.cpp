@@ -6,12 +6,15 @@
 #include "ref/trees/quality.h"
 #include "ref/trees/radix_sort.h"
 #include "tests/ref/trees/boxes.h"
+#include "tests/ref/trees/meshes.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 #include <stdexcept>
 
 namespace {
@@ -197,6 +200,27 @@ RC_GTEST_PROP(RadixSort, IsAStableSort, ())
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     ref::radix_sort(codes, primitives, bits);
     for (std::size_t i = 0; i < n; ++i) RC_ASSERT(std::pair(codes[i], primitives[i]) == expected[i]);
+}
+
+// Here and there larger leaves are cheaper, so that some leaf of the mesh has more than one primitive.
+TEST(LeafSize, IsNeverExceeded)
+{
+    const auto boxes = ref::primitive_bounds(scene_of(trees_test::tessellated_box(8, 2)));
+    std::size_t nodes = std::numeric_limits<std::size_t>::max();
+    for (const std::size_t size : {1, 2, 3, 16}) {
+        const Tree tree = build(boxes, {Builder::sah_leaf, size});
+        EXPECT_EQ(is_valid_tree(tree, boxes), std::vector<std::string>());
+        std::size_t largest = 0;
+        for (std::size_t leaf = 0; leaf + 1 < tree.leaf_begin.size(); ++leaf)
+            largest = std::max<std::size_t>(largest, tree.leaf_begin[leaf + 1] - tree.leaf_begin[leaf]);
+        EXPECT_LE(largest, size);
+        EXPECT_EQ(largest == 1, size == 1);
+        EXPECT_LE(tree.nodes.size(), nodes);
+        nodes = tree.nodes.size();
+    }
+    EXPECT_EQ(build(boxes, Builder::sah_leaf).nodes.size(),
+              build(boxes, {Builder::sah_leaf, 8}).nodes.size());
+    EXPECT_THROW(build(boxes, {Builder::sah_leaf, 0}), std::invalid_argument);
 }
 
 } // namespace
