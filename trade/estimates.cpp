@@ -184,13 +184,13 @@ std::size_t common(const std::vector<Round>& a, const std::vector<Round>& b)
     return std::min(a.size(), b.size());
 }
 
-Estimate ratio_of(std::vector<double> a, std::vector<double> b, std::size_t rounds)
+Estimate ratio_of(std::vector<double> a, std::vector<double> b, std::size_t rounds, double confidence)
 {
     a.resize(rounds);
     b.resize(rounds);
     const auto positive = [](double x) { return x > 0.0; };
     if (rounds < 2 || !std::ranges::all_of(a, positive) || !std::ranges::all_of(b, positive)) return {};
-    return ratio_of_rounds(a, b);
+    return ratio_of_rounds(a, b, confidence);
 }
 
 } // namespace
@@ -239,15 +239,15 @@ std::vector<double> costs(const std::vector<Round>& rounds)
     return by_round(rounds, [](const Round& r) { return r.noise.mean * render_of(r).wall; });
 }
 
-Estimate time_to_equal_noise(const std::vector<Round>& a, const std::vector<Round>& b)
+Estimate time_to_equal_noise(const std::vector<Round>& a, const std::vector<Round>& b, double confidence)
 {
-    return ratio_of(costs(a), costs(b), common(a, b));
+    return ratio_of(costs(a), costs(b), common(a, b), confidence);
 }
 
 Estimate speed(const std::vector<Round>& a, const std::vector<Round>& b)
 {
     const auto per_sample = [](const Round& r) { return render_of(r).wall; };
-    return ratio_of(by_round(b, per_sample), by_round(a, per_sample), common(a, b));
+    return ratio_of(by_round(b, per_sample), by_round(a, per_sample), common(a, b), 0.95);
 }
 
 Estimate samples_from_which_it_pays(const std::vector<Round>& a, const std::vector<Round>& b)

@@ -68,7 +68,8 @@ std::vector<double> costs(const std::vector<Round>& rounds);
 
 /// The time that `a` needs for the noise of `b`, as a multiple of b's time; formed within rounds. Only
 /// the rounds that both have are used. Not stated for fewer than two, and where either has no noise.
-Estimate time_to_equal_noise(const std::vector<Round>& a, const std::vector<Round>& b);
+Estimate time_to_equal_noise(const std::vector<Round>& a, const std::vector<Round>& b,
+                             double confidence = 0.95);
 
 /// The samples per second of `a` as a multiple of those of `b`, in the same way.
 Estimate speed(const std::vector<Round>& a, const std::vector<Round>& b);

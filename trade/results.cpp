@@ -145,14 +145,15 @@ Json results(const Description& description, const StudyOptions& options,
         return one == other ? Json(nullptr)
                             : json_of(ratio(measured[one].rounds, measured[other].rounds));
     };
+    const auto time_of = [](const auto& a, const auto& b) { return time_to_equal_noise(a, b); };
     for (const Knob& knob : knobs) {
         Json values = Json::array();
         for (const Knob::Value& value : knob.values)
-            values.push_back({{"value", value.text},
-                              {"configuration", configurations[value.configuration].name},
-                              {"time_to_equal_noise",
-                               beside(value.configuration, knob.reference, time_to_equal_noise)},
-                              {"speed", beside(value.configuration, knob.reference, speed)}});
+            values.push_back(
+                {{"value", value.text},
+                 {"configuration", configurations[value.configuration].name},
+                 {"time_to_equal_noise", beside(value.configuration, knob.reference, time_of)},
+                 {"speed", beside(value.configuration, knob.reference, speed)}});
         json["knobs"].push_back({{"name", knob.name},
                                  {"what", knob.what},
                                  {"reference", configurations[knob.reference].name},
@@ -184,7 +185,7 @@ Json results(const Description& description, const StudyOptions& options,
             one["floor"] = found.floor;
             one["relmse_1s"] = json_of(found.relmse_1s);
             one["efficiency"] = json_of(found.efficiency);
-            one["time_to_equal_noise"] = beside(i, 0, time_to_equal_noise);
+            one["time_to_equal_noise"] = beside(i, 0, time_of);
             one["speed"] = beside(i, 0, speed);
             one["memory"] = range_of(of_one.peak_bytes);
             one["front"] = static_cast<bool>(on_front[i]);

@@ -13,16 +13,17 @@
 
 namespace trade {
 
-Measured mean_of_rounds(const std::vector<double>& rounds)
+Measured mean_of_rounds(const std::vector<double>& rounds, double confidence)
 {
     if (rounds.size() < 2) throw std::invalid_argument("an interval needs at least two rounds");
     const golden::Moments moments = golden::moments(rounds);
     const boost::math::students_t student(moments.count - 1.0);
-    const double quantile = boost::math::quantile(boost::math::complement(student, 0.025));
+    const double quantile =
+        boost::math::quantile(boost::math::complement(student, (1.0 - confidence) / 2.0));
     return {moments.mean, quantile * std::sqrt(moments.variance / moments.count)};
 }
 
-Estimate ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b)
+Estimate ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b, double confidence)
 {
     if (a.size() != b.size()) throw std::invalid_argument("a ratio needs values of the same rounds");
     std::vector<double> logarithms;
@@ -30,7 +31,7 @@ Estimate ratio_of_rounds(const std::vector<double>& a, const std::vector<double>
         if (!(a[i] > 0.0 && b[i] > 0.0)) throw std::invalid_argument("a ratio needs positive values");
         logarithms.push_back(std::log(a[i] / b[i]));
     }
-    const auto [mean, half_width] = mean_of_rounds(logarithms);
+    const auto [mean, half_width] = mean_of_rounds(logarithms, confidence);
     return {std::exp(mean), std::exp(mean - half_width), std::exp(mean + half_width)};
 }
 

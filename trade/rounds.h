@@ -14,7 +14,7 @@
 
 namespace trade {
 
-/// A mean with the half width of its 95% interval.
+/// A mean with the half width of its interval.
 struct Measured {
     double mean;
     double half_width;
@@ -22,12 +22,13 @@ struct Measured {
 
 /// The mean of one value per round, with Student's interval: the rounds are taken to be independent and
 /// roughly normally distributed. Throws std::invalid_argument for fewer than two rounds.
-Measured mean_of_rounds(const std::vector<double>& rounds);
+Measured mean_of_rounds(const std::vector<double>& rounds, double confidence = 0.95);
 
 /// The geometric mean of a[i] / b[i] over the rounds i, and Student's interval of its logarithm: a
 /// factor that is common to a round cancels. Throws std::invalid_argument for fewer than two rounds,
 /// for values that are not positive, and for `a` and `b` of different lengths.
-Estimate ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b);
+Estimate ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b,
+                         double confidence = 0.95);
 
 /// The geometric mean of one positive value per round, and Student's interval of its logarithm: for
 /// times, whose scatter is relative. Throws as ratio_of_rounds.

@@ -9,8 +9,11 @@ namespace {
 /// A value of a knob beside its reference.
 struct Beside {
     std::string name;
-    Estimate time; // to equal noise, as a multiple of the reference's
-    Estimate pays; // samples per pixel from which a longer build pays
+    Estimate time;     // to equal noise, as a multiple of the reference's
+    bool faster;       // certainly, among all comparisons of the study
+    bool slower;       //
+    Estimate pays;     // samples per pixel from which a longer build pays
+    double detectable; // relative error of the whole that would have been found
 };
 
 std::string joined(const std::vector<std::string>& parts, const char* between)
@@ -20,27 +23,37 @@ std::string joined(const std::vector<std::string>& parts, const char* between)
     return text;
 }
 
-/// The times to equal noise: the best and the worst that are certain.
+/// The fastest value that is certainly faster; or else the slowest one.
 std::string say_times(const std::vector<Beside>& unbiased, const std::string& reference)
 {
-    const auto by_time = [](const Beside& a, const Beside& b) { return a.time.value < b.time.value; };
-    const auto best = std::ranges::min_element(unbiased, by_time);
-    const auto worst = std::ranges::max_element(unbiased, by_time);
-    if (best == unbiased.end()) return "no value could be compared with " + reference;
-    if (best->time.high < 1.0) {
-        const std::string pays = best->pays.stated() ? ", and its longer build pays from " +
-                                                           to_text(best->pays) + " samples per pixel on"
-                                                     : "";
-        return best->name + " reaches the error of " + reference + " in " + to_text(best->time) +
-               " of the time" + pays;
+    const Beside* fastest = nullptr;
+    const Beside* slowest = nullptr;
+    const Beside* least = nullptr;
+    for (const Beside& one : unbiased) {
+        const auto replaces = [&](const Beside* best, bool smaller) {
+            return best == nullptr ||
+                   (smaller ? one.time.value < best->time.value : one.time.value > best->time.value);
+        };
+        if (one.faster && replaces(fastest, true)) fastest = &one;
+        if (one.slower && replaces(slowest, false)) slowest = &one;
+        if (replaces(least, true)) least = &one;
     }
-    if (worst->time.low > 1.0)
-        return std::string(unbiased.size() > 1 ? "no value is certainly faster to the error of "
-                                               : "it does not reach the error sooner than ") +
-               reference + "; " + worst->name + " takes " + to_text(worst->time) +
-               " times as long to reach it";
-    return "no difference in the time to equal error was measured: " + best->name + " takes " +
-           to_text(best->time) + " times as long as " + reference;
+    if (least == nullptr) return "no value could be compared with " + reference;
+    if (fastest != nullptr) {
+        std::string text = fastest->name + " reaches the error of " + reference + " in " +
+                           to_text(fastest->time) + " of the time";
+        if (fastest->pays.stated())
+            text +=
+                ", and its longer build pays from " + to_text(fastest->pays) + " samples per pixel on";
+        return text + " (no bias was found; one of " + percent_to_text(fastest->detectable) +
+               " of the mean would have been)";
+    }
+    if (slowest != nullptr)
+        return std::string(unbiased.size() > 1 ? "no value is certainly faster than " : "") +
+               (unbiased.size() > 1 ? reference + "; " : "") + slowest->name + " takes " +
+               to_text(slowest->time) + " times as long to the error of " + reference;
+    return "no difference is certain; to the error of " + reference + ", " + least->name + " takes " +
+           to_text(least->time) + " times as long";
 }
 
 } // namespace
@@ -53,6 +66,7 @@ std::string sentence(const Knob& knob, const std::vector<std::optional<Estimates
     std::vector<Beside> unbiased;
     std::vector<std::string> biased;
     std::vector<std::string> undecided;
+    const double shared = 1.0 - 0.05 / static_cast<double>(std::max<std::size_t>(1, measured.size()));
     for (const Knob::Value& value : knob.values) {
         const auto& found = estimates[value.configuration];
         const bool is_reference = value.configuration == knob.reference;
@@ -67,8 +81,10 @@ std::string sentence(const Knob& knob, const std::vector<std::optional<Estimates
         const std::vector<Round>& rounds = measured[value.configuration].rounds;
         const std::vector<Round>& others = measured[knob.reference].rounds;
         const Estimate time = time_to_equal_noise(rounds, others);
+        const Estimate wide = time_to_equal_noise(rounds, others, shared);
         if (time.stated())
-            unbiased.push_back({name_of(value.text), time, samples_from_which_it_pays(rounds, others)});
+            unbiased.push_back({name_of(value.text), time, wide.high<1.0, wide.low> 1.0,
+                                samples_from_which_it_pays(rounds, others), found->bias.detectable});
     }
     std::vector<std::string> parts;
     if (!unbiased.empty() || biased.empty()) parts.push_back(say_times(unbiased, reference));

@@ -80,6 +80,36 @@ TEST(Study, IsDescribedByItsResults)
     EXPECT_NE(trade::table(json).find("BIASED"), std::string::npos);
 }
 
+// Of equal configurations one in twenty intervals excludes 1. With 40 values there are two such, and the
+// sentence must not name them.
+TEST(Study, CallsNoneOfManyEqualConfigurationsFaster)
+{
+    int named = 0;
+    int excluded = 0;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        Example example;
+        example.machine.random.seed(seed);
+        example.configurations = {{"base", "render", make({}, example.machine)}};
+        example.knobs = {{"name", "of the same", 0, {{"0", 0}}}};
+        for (std::size_t i = 1; i <= 40; ++i) {
+            const std::string name = std::to_string(i);
+            example.configurations.push_back({"name=" + name, "render", make({}, example.machine)});
+            example.knobs[0].values.push_back({name, i});
+        }
+        ASSERT_TRUE(example.run());
+        const trade::Json json = example.results();
+        const std::string sentence = json.at("knobs").at(0).at("sentence");
+        named += sentence.find("no difference is certain") == std::string::npos ? 1 : 0;
+        for (const trade::Json& value : json.at("knobs").at(0).at("values")) {
+            const trade::Json& time = value.at("time_to_equal_noise");
+            if (time.is_null()) continue;
+            excluded += time.at("low") > 1.0 || time.at("high") < 1.0 ? 1 : 0;
+        }
+    }
+    EXPECT_LE(named, 4);     // expected: at most 1 of 20
+    EXPECT_GE(excluded, 10); // expected: about 40 of 800
+}
+
 TEST(Study, GoesOnWhereItStopped)
 {
     Example example;
