@@ -191,9 +191,12 @@ void add_trade_command(CLI::App& program, Work& work)
     command->callback([options, command, &work] {
         options->size_given = command->count("--size") > 0;
         std::string line = "plumbline trade";
-        for (const CLI::Option* option : command->get_options())
-            for (const std::string& result : option->results())
-                line += (option->get_positional() ? " " : " " + option->get_name() + " ") + result;
+        for (const CLI::Option* option : command->get_options()) {
+            if (option->count() == 0) continue;
+            if (!option->get_positional()) line += " " + option->get_name();
+            if (option->get_expected_max() == 0) continue; // a flag
+            for (const std::string& result : option->results()) line += " " + result;
+        }
         work = [options, line] { return trade_command(*options, line); };
     });
 }
