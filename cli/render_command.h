@@ -26,7 +26,7 @@ struct RenderCommand {
     std::string kernels = "samples";
     std::string kernel_needs = "scene";
     std::string integrator = "path";
-    std::string builder; // empty: the default of the device (builders.h)
+    std::string builder;       // empty: the default of the device (builders.h)
     std::size_t leaf_size = 8; // of the builder sah-leaf
     std::string heuristic = "balance";
     int max_edges = images::unlimited_edges;

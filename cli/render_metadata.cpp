@@ -1,5 +1,6 @@
 #include "cli/render_metadata.h"
 
+#include "cli/reference_options.h"
 #include "images/families.h"
 
 #include <array>
@@ -16,7 +17,7 @@ const images::Metadata defaults = {
 /// The families that are left out, in the order of their names' list.
 std::string names_of_left_out(const RenderCommand& options)
 {
-    const images::Families families = render_options(options).families;
+    const images::Families families = families_of(options);
     std::string names;
     for (const auto& [name, family] : images::named_families)
         if (!(families.*family)) names += (names.empty() ? "" : " ") + std::string(name);

@@ -3,15 +3,15 @@
 #include "cli/render_command.h"
 
 #include "cli/builders.h"
+#include "cli/one_of.h"
 #include "cli/output_files.h"
+#include "cli/reference_options.h"
 #include "cli/scene_input.h"
-#include "images/families.h"
 #include "images/whole_number.h"
 #include "images/write_image.h"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -28,29 +28,8 @@ const std::map<std::string, images::Heuristic> heuristics = {{"balance", images:
                                                              {"power", images::Heuristic::power},
                                                              {"uniform", images::Heuristic::uniform}};
 
-images::Families families_but(const std::vector<std::string>& without)
-{
-    images::Families families;
-    for (const auto& [name, family] : images::named_families)
-        if (std::ranges::find(without, name) != without.end()) families.*family = false;
-    return families;
-}
-
-std::vector<std::string> family_names()
-{
-    std::vector<std::string> names;
-    for (const auto& [name, family] : images::named_families) names.emplace_back(name);
-    return names;
-}
-
 /// Each is a picture in memory and in the file.
 constexpr std::uint64_t most_batches_kept = 1024;
-
-/// A check without a text of its own on the help page, as the option's text names the words.
-CLI::Validator one_of(const std::vector<std::string>& words)
-{
-    return CLI::IsMember(words).description("");
-}
 
 /// Of every device; which of them have no effect with which device: idle_options.cpp.
 std::vector<std::string> all_builder_names()
@@ -125,14 +104,8 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
         ->capture_default_str();
     command
         .add_option("--builder", options.builder,
-                    "Tree, changes no bit. For ref: morton30, morton63, sah or [sah-leaf];\n"
-                    "for the fast path: morton30, morton63, hploc30 or [hploc63]")
+                    "Tree: morton30, morton63; for ref sah, [sah-leaf]; else hploc30, [hploc63]")
         ->check(one_of(all_builder_names()))
-        ->capture_default_str();
-    command
-        .add_option("--leaf-size", options.leaf_size,
-                    "Most primitives in a leaf of sah-leaf, 1 to 64; changes no bit")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{64}).description(""))
         ->capture_default_str();
     command
         .add_option("--heuristic", options.heuristic,
@@ -144,18 +117,6 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
                     "Longest path, the camera's edge counted [no limit]")
         ->check(CLI::Range(1, 1 << 20).description(""));
     command.add_flag("--no-roulette", options.no_roulette, "No Russian roulette");
-    command
-        .add_option("--roulette-from", options.roulette_from,
-                    "For ref: the first bounce that roulette may end, at least 1")
-        ->check(CLI::Range(1, 1 << 20).description(""))
-        ->capture_default_str();
-    command.add_option("--epsilon", options.epsilon,
-                       "For ref: leave surfaces by this fixed distance, a warning example");
-    command
-        .add_option("--without", options.without,
-                    "For ref: omit emission_hit, next_event, light_image, inner_connection")
-        ->allow_extra_args(false)
-        ->check(one_of(family_names()));
     command.add_option("--seed", options.seed, "Seed of the random numbers")
         ->check(expect_seed)
         ->capture_default_str();
@@ -185,17 +146,6 @@ void add_output_options(CLI::App& command, RenderCommand& options)
     command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
 }
 
-/// Throws unless the integrator has the families that are left out, and others.
-void check_families(const RenderCommand& options)
-{
-    try {
-        images::expect_families(integrators.at(options.integrator), families_but(options.without));
-    } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument("--without with --integrator " + options.integrator + ": " +
-                                    error.what());
-    }
-}
-
 /// Throws unless each file can be written and is no other file of this command.
 void check_files(const RenderCommand& options)
 {
@@ -219,6 +169,7 @@ void add_render_options(CLI::App& command, RenderCommand& options)
     add_picture_options(command, options);
     add_device_options(command, options);
     add_integrator_options(command, options);
+    add_reference_options(command, options);
     add_output_options(command, options);
 }
 
@@ -240,11 +191,9 @@ void check(const RenderCommand& options)
     expect_whole_batches(options.samples, options.batch_size);
     if (options.no_roulette && options.max_edges == images::unlimited_edges)
         throw std::invalid_argument("--no-roulette needs --max-edges: paths would never end");
-    if (options.epsilon && !(*options.epsilon > 0.0 && std::isfinite(*options.epsilon)))
-        throw std::invalid_argument("--epsilon: expected a length above 0");
     if (std::isnan(options.exposure) || std::isnan(options.watch))
         throw std::invalid_argument("--exposure and --watch expect numbers, and got a NaN");
-    check_families(options);
+    check_reference_options(options);
     const bool layers = wants_layers(options);
     if (layers && options.max_edges > images::most_edges_of_strategies)
         throw std::invalid_argument("--strategies needs --max-edges of at most " +
@@ -276,7 +225,7 @@ images::RenderOptions render_options(const RenderCommand& options)
     plan.max_edges = options.max_edges;
     plan.roulette = !options.no_roulette;
     plan.roulette_from = options.roulette_from;
-    plan.families = families_but(options.without);
+    plan.families = families_of(options);
     plan.batch_size = options.batch_size;
     plan.deterministic = options.deterministic;
     if (wants_layers(options))

@@ -139,8 +139,7 @@ ExitStatus trade_command(TradeCommand options, const std::string& command)
                                    scene.name,
                                    scene.hash,
                                    named.source,
-                                   named.samples,
-                                   options.precision};
+                                   named.samples};
     std::vector<trade::Measurements> measured(configurations.size());
     if (options.resume && fs::exists(options.output)) try {
             measured =

@@ -4,10 +4,8 @@
 
 #include "cli/command.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace cli {
@@ -18,7 +16,6 @@ struct TradeCommand {
     bool frame = false;
     double seconds = 60.0;
     std::size_t rounds = 8;
-    double precision = 0.1;
     std::uint64_t seed = 1;
     std::vector<std::string> base;  // "integrator=bdpt"
     std::vector<std::string> knobs; // "threads", "max-edges=2,4"; empty: the usual ones
@@ -28,8 +25,7 @@ struct TradeCommand {
     bool resume = false;
     std::string truth; // a golden; empty: the cached one
     double truth_seconds = 60.0;
-    std::string cache;                                                    // folder
-    unsigned threads = std::max(1U, std::thread::hardware_concurrency()); // of the truth's render
+    std::string cache; // folder
     bool json = false;
     bool quiet = false;
     bool size_given = false;

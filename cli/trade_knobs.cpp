@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 
 namespace cli {
@@ -52,7 +53,7 @@ bool is(const Settings& settings, const char* option, const char* value)
 
 const std::array knob_rules = {
     KnobRule{"integrator",
-             "which strategies: path (from the eye), bdpt (from both ends), light (from the light)",
+             "paths from the eye, from both ends, from the light",
              true,
              "path",
              {},
@@ -60,7 +61,7 @@ const std::array knob_rules = {
                  return Values{"path", "bdpt", "light"};
              }},
     KnobRule{"device",
-             "double precision by the reference (ref), or floats (host: this processor, cuda: a GPU)",
+             "floats on this processor, or the reference in double; cuda: a GPU",
              true,
              "ref",
              {},
@@ -70,19 +71,19 @@ const std::array knob_rules = {
     KnobRule{
         "threads", "threads of the processor", true, "", {}, [](const Settings&) { return threads(); }},
     KnobRule{"instructions",
-             "vector instructions of the host's kernels, which change no bit; fastmath: less exact",
+             "vector instructions; fastmath changes bits",
              false,
              "best",
              {{"device", "host"}},
              [](const Settings&) { return instruction_sets(); }},
     KnobRule{"max-edges",
-             "the longest path: shorter ones lack light",
+             "longest path; shorter ones lack light",
              true,
              "unlimited",
              {},
              [](const Settings&) { return Values{"2", "3", "4", "6", "10", "unlimited"}; }},
     KnobRule{"roulette",
-             "the first bounce at which Russian roulette may end a walk, or off",
+             "first bounce that roulette may end",
              false,
              "5",
              {{"device", "ref"}},
@@ -92,7 +93,7 @@ const std::array knob_rules = {
                  return values;
              }},
     KnobRule{"tree",
-             "tree of the fast path: H-PLOC, or a radix tree over Morton codes of 63 or 30 bits",
+             "tree of the fast path, with the bits of its codes",
              true,
              "hploc63",
              {{"device", "host"}},
@@ -100,7 +101,7 @@ const std::array knob_rules = {
                  return Values{"hploc63", "hploc30", "morton63", "morton30"};
              }},
     KnobRule{"kernel-needs",
-             "kernels for what the scene requires, or also for spheres, mirrors and glass, or for all",
+             "kernels for the scene, also for mirrors and glass, for all",
              true,
              "scene",
              {{"device", "host"}},
@@ -108,29 +109,21 @@ const std::array knob_rules = {
                  return Values{"scene", "specular", "all"};
              }},
     KnobRule{"epsilon",
-             "rays leave surfaces by a proven bound, or by a fixed length (a known mistake)",
+             "distance of rays from surfaces; fixed is a mistake",
              false,
              "bound",
              {{"device", "ref"}},
              [](const Settings&) { return Values{"bound", "1e-2", "1e-3", "1e-4", "1e-5", "1e-6"}; }},
     KnobRule{"ref-tree",
-             "tree of the reference: by Morton codes of 30 or 63 bits, or by the surface area heuristic",
+             "tree of ref",
              false,
              "sah-leaf",
              {{"device", "ref"}},
              [](const Settings&) {
-                 return Values{"sah-leaf", "sah", "morton63", "morton30"};
-             }},
-    KnobRule{"leaf-size",
-             "the most primitives in a leaf of the reference's tree sah-leaf",
-             false,
-             "8",
-             {{"device", "ref"}},
-             [](const Settings&) {
-                 return Values{"1", "2", "4", "8", "16"};
+                 return Values{"sah-leaf", "sah-leaf4", "sah-leaf2", "sah", "morton63", "morton30"};
              }},
     KnobRule{"heuristic",
-             "weights of bdpt: balance, power (squares), or uniform (a known mistake)",
+             "weights of bdpt; uniform is a mistake",
              false,
              "balance",
              {{"device", "ref"}, {"integrator", "bdpt"}},
@@ -139,7 +132,7 @@ const std::array knob_rules = {
              }},
     KnobRule{
         "without",
-        "a family of strategies of bdpt that is left out, its weights with it",
+        "left out of bdpt",
         false,
         "nothing",
         {{"device", "ref"}, {"integrator", "bdpt"}},
@@ -164,6 +157,9 @@ std::string option_of(const KnobRule& rule)
     const std::string name = rule.name;
     return name == "tree" || name == "ref-tree" ? "builder" : name;
 }
+
+/// The builder of the reference that has a choice of the leaf size: "sah-leaf4" is a size of 4.
+constexpr std::string_view sah_leaf = "sah-leaf";
 
 /// Removes settings that have no effect beside the others, as `plumbline render` would refuse them.
 void drop_idle(Settings& settings)
@@ -199,6 +195,10 @@ Settings turn(Settings settings, const KnobRule& rule, const std::string& value)
         settings.erase("no-roulette");
         if (value == "off") settings["no-roulette"] = "";
         set(settings, "roulette-from", value == "off" ? rule.default_value : value, rule.default_value);
+    } else if (std::string(rule.name) == "ref-tree") {
+        const bool sized = value.starts_with(sah_leaf) && value.size() > sah_leaf.size();
+        set(settings, "builder", sized ? rule.default_value : value, rule.default_value);
+        set(settings, "leaf-size", sized ? value.substr(sah_leaf.size()) : "8", "8");
     } else {
         if (std::string(rule.name) == "device" && !is(settings, "device", value.c_str()))
             settings.erase("builder"); // each device has trees of its own
@@ -215,6 +215,8 @@ std::string value_of(const Settings& settings, const KnobRule& rule)
         const auto from = settings.find("roulette-from");
         return from == settings.end() ? rule.default_value : from->second;
     }
+    if (std::string(rule.name) == "ref-tree" && settings.contains("leaf-size"))
+        return std::string(sah_leaf) + settings.at("leaf-size");
     const auto found = settings.find(option_of(rule));
     return found == settings.end() ? rule.default_value : found->second;
 }
@@ -307,8 +309,14 @@ bool is_longer(const std::string& value, int max_edges)
 std::string describe_knobs()
 {
     std::string text;
-    for (const KnobRule& rule : knob_rules)
-        text += std::string(rule.usual ? "* " : "  ") + rule.name + ": " + rule.what + "\n";
+    for (const KnobRule& rule : knob_rules) {
+        Settings reference = {{"device", "host"}, {"max-edges", "6"}};
+        text += std::string(rule.usual ? "* " : "  ") + rule.name + " ";
+        std::string values;
+        for (const std::string& value : rule.values(reference))
+            values += (values.empty() ? "" : ",") + value;
+        text += values + ": " + rule.what + "\n";
+    }
     return text;
 }
 

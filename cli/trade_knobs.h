@@ -31,7 +31,7 @@ struct TradePlan {
     std::vector<trade::Knob> knobs;
 };
 
-/// All knobs with their explanations, one line each; a star marks the usual ones.
+/// All knobs with their usual values and an explanation, one line each; a star marks the usual knobs.
 std::string describe_knobs();
 
 /// The base for settings such as "integrator=bdpt": one thread of the fast path on the host, path

@@ -18,23 +18,18 @@ void add_trade_options(CLI::App& command, TradeCommand& options)
     command.add_option("--size", options.size, "Width x height in pixels")->capture_default_str();
     command.add_flag("--frame", options.frame, "Move the camera back until the whole scene is visible");
     command.add_option("--seconds", options.seconds, "Time for all measurements together, about")
-        ->check(CLI::Range(0.1, 1e7))
+        ->check(CLI::Range(0.1, 1e7).description(""))
         ->capture_default_str();
     command.add_option("--rounds", options.rounds, "Rounds: in each, everything is measured once")
-        ->check(CLI::Range(2, 1000))
-        ->capture_default_str();
-    command
-        .add_option("--precision", options.precision,
-                    "Say so if ratios of times are known less well than this")
-        ->check(CLI::Range(1e-4, 10.0).description(""))
+        ->check(CLI::Range(2, 1000).description(""))
         ->capture_default_str();
     command.add_option("--seed", options.seed, "Of the order of measurements and of the renders")
         ->check(CLI::Range(std::uint64_t{0}, (std::uint64_t{1} << 32) - 1).description(""))
         ->capture_default_str();
     command.add_option("--base", options.base,
-                       "What is varied, as OPTION=VALUE ... [device=host threads=1 integrator=path]");
+                       "What is varied: OPTION=VALUE ... [device=host threads=1 integrator=path]");
     command.add_option("--knobs", options.knobs,
-                       "What to vary, as NAME or NAME=VALUE,VALUE ...; or all [those with a star]");
+                       "What to vary: NAME or NAME=VALUE,VALUE ..., or all [those with *]");
     command.add_flag("--needs", options.needs,
                      "Vary what the scene does not require: what does leaving it out gain?");
     command.add_option("-o,--output", options.output, "Results: .json");
@@ -43,11 +38,9 @@ void add_trade_options(CLI::App& command, TradeCommand& options)
     command.add_option("--truth", options.truth, "Golden to compare with [a render kept in --cache]");
     command
         .add_option("--truth-seconds", options.truth_seconds, "Time to render the truth, the first time")
-        ->check(CLI::Range(0.1, 1e7))
+        ->check(CLI::Range(0.1, 1e7).description(""))
         ->capture_default_str();
     command.add_option("--cache", options.cache, "Folder of truths [$XDG_CACHE_HOME/plumbline]");
-    command.add_option("-t,--threads", options.threads, "Threads that render the truth")
-        ->check(CLI::Range(1u, 1024u));
     command.add_flag("--json", options.json, "Print the results as JSON and not as a table");
     command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
 }

@@ -37,7 +37,6 @@ RenderCommand render_of_truth(const TradeCommand& options, int max_edges)
     render.scene = options.scene;
     render.size = options.size;
     render.frame = options.frame;
-    render.threads = options.threads;
     render.integrator = "bdpt";
     render.max_edges = max_edges;
     render.seed = golden_seed;

@@ -176,8 +176,12 @@ private:
     const World& world_;
     Integrator integrator_;
     const images::RenderOptions& options_;
-    PathOptions path_{options_.seed,          options_.max_edges, options_.roulette,
-                      options_.roulette_from, options_.heuristic, options_.families};
+    PathOptions path_{.seed = options_.seed,
+                      .max_edges = options_.max_edges,
+                      .roulette = options_.roulette,
+                      .roulette_from = options_.roulette_from,
+                      .heuristic = options_.heuristic,
+                      .families = options_.families};
     std::uint64_t number_;
     std::vector<Tile> tiles_;
     images::Image sum_; // finally the mean

@@ -41,7 +41,8 @@ TEST(Help, FitsOneScreenAndShowsAnExample)
                                        {"render", "-h"},
                                        {"bvh", "--help"},
                                        {"golden", "--help"},
-                                       {"compare", "--help"}}) {
+                                       {"compare", "--help"},
+                                       {"trade", "--help"}}) {
         const Outcome help = run(arguments);
         EXPECT_EQ(help.status, 0);
         EXPECT_EQ(help.err, "");

@@ -56,8 +56,8 @@ INSTANTIATE_TEST_SUITE_P(Families, WithoutAFamily, testing::ValuesIn(all_cases()
 // max_edges 1 and 2 included: there the walks are as short as they can be.
 TEST_P(WithoutAFamily, TheOtherContributionsAreTheSameToTheBit)
 {
-    const auto& [name, named] = GetParam();
-    const ref::Integrator integrator = ref::integrator_of(name);
+    const ref::Integrator integrator = ref::integrator_of(std::get<Integrator>(GetParam()));
+    const images::NamedFamily named = std::get<images::NamedFamily>(GetParam());
     int left_out = 0;
     for (const char* scene_name : {"cornell_glass", "all_emitters"}) { // the latter has a sky
         const scenes::Scene scene = transport_test::our_scene(scene_name);
@@ -90,9 +90,10 @@ TEST_P(WithoutAFamily, TheOtherContributionsAreTheSameToTheBit)
 // samples, and at most some tens of splats per pixel, all positive. 1e3 roundings are more than occur.
 TEST_P(WithoutAFamily, ThePictureLacksItsWeightedLayers)
 {
-    const auto& [integrator, named] = GetParam();
+    const images::NamedFamily named = std::get<images::NamedFamily>(GetParam());
     const scenes::Scene scene = transport_test::our_scene("cornell_glass");
-    images::RenderOptions options{.integrator = integrator, .seed = 4, .max_edges = 4};
+    images::RenderOptions options{
+        .integrator = std::get<Integrator>(GetParam()), .seed = 4, .max_edges = 4};
     options.strategies = images::StrategyPictures::weighted;
     const auto rendered = [&](images::StrategySums& layers) {
         images::Film film(width, height);

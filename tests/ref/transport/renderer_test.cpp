@@ -75,7 +75,7 @@ TEST(Render, DoesNotDependOnTheBuilderOfTheTreeEvenWhereTwoHitsAreEquallyFar)
         const images::Film expected = rendered_by(ref::Builder::sah_leaf, integrator);
         for (const auto builder : {ref::Builder::morton30, ref::Builder::morton63, ref::Builder::sah})
             EXPECT_EQ(expected, rendered_by(builder, integrator));
-        for (const std::size_t leaf_size : {1, 2, 16})
+        for (const std::size_t leaf_size : {1u, 2u, 16u})
             EXPECT_EQ(expected, rendered_by({ref::Builder::sah_leaf, leaf_size}, integrator));
     }
 }

@@ -207,7 +207,7 @@ TEST(LeafSize, IsNeverExceeded)
 {
     const auto boxes = ref::primitive_bounds(scene_of(trees_test::tessellated_box(8, 2)));
     std::size_t nodes = std::numeric_limits<std::size_t>::max();
-    for (const std::size_t size : {1, 2, 3, 16}) {
+    for (const std::size_t size : {1u, 2u, 3u, 16u}) {
         const Tree tree = build(boxes, {Builder::sah_leaf, size});
         EXPECT_EQ(is_valid_tree(tree, boxes), std::vector<std::string>());
         std::size_t largest = 0;
