@@ -27,7 +27,7 @@ void add_trade_options(CLI::App& command, TradeCommand& options)
         ->check(CLI::Range(std::uint64_t{0}, (std::uint64_t{1} << 32) - 1).description(""))
         ->capture_default_str();
     command.add_option("--base", options.base,
-                       "What is varied: OPTION=VALUE ... [device=host threads=1 integrator=path]");
+                       "What is varied: OPTION=VALUE ... [path, device=host threads=1]");
     command.add_option("--knobs", options.knobs,
                        "What to vary: NAME or NAME=VALUE,VALUE ..., or all [those with *]");
     command.add_flag("--needs", options.needs,

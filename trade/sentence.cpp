@@ -9,11 +9,12 @@ namespace {
 /// A value of a knob beside its reference.
 struct Beside {
     std::string name;
-    Estimate time;     // to equal noise, as a multiple of the reference's
-    bool faster;       // certainly, among all comparisons of the study
-    bool slower;       //
-    Estimate pays;     // samples per pixel from which a longer build pays
-    double detectable; // relative error of the whole that would have been found
+    Estimate time;           // to equal noise, as a multiple of the reference's
+    bool faster;             // certainly, among all comparisons of the study
+    bool slower;             //
+    Estimate pays;           // samples per pixel from which its longer build pays
+    Estimate reference_pays; // the same of the reference's longer build
+    double detectable;       // relative error of the whole that would have been found
 };
 
 std::string joined(const std::vector<std::string>& parts, const char* between)
@@ -48,10 +49,16 @@ std::string say_times(const std::vector<Beside>& unbiased, const std::string& re
         return text + " (no bias was found; one of " + percent_to_text(fastest->detectable) +
                " of the mean would have been)";
     }
-    if (slowest != nullptr)
-        return std::string(unbiased.size() > 1 ? "no value is certainly faster than " : "") +
-               (unbiased.size() > 1 ? reference + "; " : "") + slowest->name + " takes " +
-               to_text(slowest->time) + " times as long to the error of " + reference;
+    if (slowest != nullptr) {
+        std::string text =
+            unbiased.size() > 1 ? "no value is certainly faster than " + reference + "; " : "";
+        text += slowest->name + " takes " + to_text(slowest->time) + " times as long to the error of " +
+                reference;
+        if (slowest->reference_pays.stated())
+            text += ", whose longer build pays from " + to_text(slowest->reference_pays) +
+                    " samples per pixel on";
+        return text;
+    }
     return "no difference is certain; to the error of " + reference + ", " + least->name + " takes " +
            to_text(least->time) + " times as long";
 }
@@ -84,7 +91,8 @@ std::string sentence(const Knob& knob, const std::vector<std::optional<Estimates
         const Estimate wide = time_to_equal_noise(rounds, others, shared);
         if (time.stated())
             unbiased.push_back({name_of(value.text), time, wide.high<1.0, wide.low> 1.0,
-                                samples_from_which_it_pays(rounds, others), found->bias.detectable});
+                                samples_from_which_it_pays(rounds, others),
+                                samples_from_which_it_pays(others, rounds), found->bias.detectable});
     }
     std::vector<std::string> parts;
     if (!unbiased.empty() || biased.empty()) parts.push_back(say_times(unbiased, reference));

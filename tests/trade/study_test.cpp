@@ -80,6 +80,24 @@ TEST(Study, IsDescribedByItsResults)
     EXPECT_NE(trade::table(json).find("BIASED"), std::string::npos);
 }
 
+TEST(Study, SaysFromWhichNumberOfSamplesALongerBuildPays)
+{
+    Example example;
+    example.machine.own_scatter = 0.005;
+    example.configurations = {{"base", "render", make({0.0, 1.0, 2e-3, 0.05}, example.machine)},
+                              {"tree=plain", "render", make({0.0, 1.0, 3e-3, 0.01}, example.machine)},
+                              {"tree=best", "render", make({0.0, 1.0, 1e-3, 0.15}, example.machine)}};
+    example.knobs = {{"tree", "of boxes", 0, {{"base", 0}, {"plain", 1}, {"best", 2}}}};
+    ASSERT_TRUE(example.run());
+    const trade::Json knob = example.results().at("knobs").at(0);
+    EXPECT_NEAR(knob.at("values").at(1).at("reference_pays_from").at("value"), 40.0, 4.0);
+    EXPECT_TRUE(knob.at("values").at(1).at("pays_from").at("value").is_null());
+    EXPECT_NEAR(knob.at("values").at(2).at("pays_from").at("value"), 100.0, 10.0);
+    const std::string sentence = knob.at("sentence");
+    EXPECT_NE(sentence.find("tree=best reaches the error of tree=base in 0."), std::string::npos);
+    EXPECT_NE(sentence.find("its longer build pays from "), std::string::npos) << sentence;
+}
+
 // Of equal configurations one in twenty intervals excludes 1. With 40 values there are two such, and the
 // sentence must not name them.
 TEST(Study, CallsNoneOfManyEqualConfigurationsFaster)
