@@ -153,7 +153,10 @@ Json results(const Description& description, const StudyOptions& options,
                 {{"value", value.text},
                  {"configuration", configurations[value.configuration].name},
                  {"time_to_equal_noise", beside(value.configuration, knob.reference, time_of)},
-                 {"speed", beside(value.configuration, knob.reference, speed)}});
+                 {"speed", beside(value.configuration, knob.reference, speed)},
+                 {"pays_from", beside(value.configuration, knob.reference, samples_from_which_it_pays)},
+                 {"reference_pays_from",
+                  beside(knob.reference, value.configuration, samples_from_which_it_pays)}});
         json["knobs"].push_back({{"name", knob.name},
                                  {"what", knob.what},
                                  {"reference", configurations[knob.reference].name},
