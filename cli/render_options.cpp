@@ -104,7 +104,7 @@ void add_integrator_options(CLI::App& command, RenderCommand& options)
         ->capture_default_str();
     command
         .add_option("--builder", options.builder,
-                    "morton30, morton63, for ref sah or [sah-leaf], else hploc30 or [hploc63]")
+                    "morton30, morton63; ref: sah, [sah-leaf]; others: hploc30, [hploc63]")
         ->check(one_of(all_builder_names()))
         ->capture_default_str();
     command
