@@ -4,12 +4,8 @@
 
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "cli/renderer_for.h"
-#include "cli/run_self.h"
-#include "cli/scene_input.h"
-#include "cli/trade_knobs.h"
 #include "cli/trade_needs.h"
-#include "cli/trade_truth.h"
+#include "cli/trade_study.h"
 #include "images/atomic_file.h"
 #include "images/exposure.h"
 #include "trade/page.h"
@@ -18,8 +14,6 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
-
-#include <unistd.h>
 
 #include <array>
 #include <ctime>
@@ -56,79 +50,46 @@ std::string processor_name()
     return "unknown processor";
 }
 
-/// The peak memory of a process that renders one sample per pixel.
-std::optional<double> peak_bytes(const Settings& settings, const TradeView& view)
-{
-    const fs::path picture =
-        fs::temp_directory_path() / ("plumbline-trade-" + std::to_string(getpid()) + ".pfm");
-    std::vector<std::string> arguments = arguments_of(settings, view);
-    for (const std::string& more : {std::string("-o"), picture.string(), std::string("-s"),
-                                    std::string("1"), std::string("-q"), std::string("--json")})
-        arguments.push_back(more);
-    const auto output = output_of_self(arguments);
-    std::error_code ignored;
-    fs::remove(picture, ignored);
-    if (!output) return std::nullopt;
-    const auto json = nlohmann::json::parse(*output, nullptr, false);
-    return json.is_object() && json.contains("peak_rss_bytes")
-               ? std::optional<double>(json["peak_rss_bytes"].get<double>())
-               : std::nullopt;
-}
-
-std::vector<trade::Configuration> configurations_of(const TradePlan& plan, const TradeView& view,
-                                                    const scenes::Scene& scene)
-{
-    std::vector<trade::Configuration> configurations;
-    for (std::size_t i = 0; i < plan.settings.size(); ++i) {
-        RenderCommand render = render_of(plan.settings[i], view);
-        render.quiet = true; // notices were printed once, for the scene
-        const Settings& settings = plan.settings[i];
-        configurations.push_back({plan.names[i], command_line(settings, view),
-                                  [render, &scene](std::uint32_t batch_size, std::uint64_t seed) {
-                                      RenderCommand command = render;
-                                      command.batch_size = batch_size;
-                                      command.seed = seed;
-                                      return renderer_for(command, scene);
-                                  },
-                                  [settings, view] { return peak_bytes(settings, view); }});
-    }
-    return configurations;
-}
-
-/// max_edges of a render by these settings.
-int max_edges_of(const Settings& settings, const TradeView& view)
-{
-    return render_of(settings, view).max_edges;
-}
-
 trade::Json read_results(const std::string& path)
 {
     const auto json = trade::Json::parse(images::read_file(path), nullptr, false);
-    if (json.is_discarded()) throw std::invalid_argument(path + ": it is no JSON");
+    if (json.is_discarded()) throw std::invalid_argument("it is no JSON");
     return json;
 }
 
-ExitStatus trade_command(TradeCommand options, const std::string& command)
+/// Earlier measurements, with --resume.
+std::vector<trade::Measurements> earlier(const TradeCommand& options,
+                                         const trade::Description& description,
+                                         const trade::StudyOptions& study,
+                                         const std::vector<trade::Configuration>& configurations,
+                                         const trade::Truth& truth)
+{
+    if (!options.resume || !fs::exists(options.output))
+        return std::vector<trade::Measurements>(configurations.size());
+    try {
+        return trade::restored(read_results(options.output), description, study, configurations, truth);
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument("--resume " + options.output + ": " + error.what());
+    }
+}
+
+/// The part of all rounds that is measured.
+double part_done(const std::vector<trade::Measurements>& measured, std::size_t rounds)
+{
+    double done = 0.0;
+    for (const trade::Measurements& of_one : measured)
+        done +=
+            static_cast<double>(of_one.rounds.size()) / static_cast<double>(rounds * measured.size());
+    return done;
+}
+
+ExitStatus trade_command(const TradeCommand& options, const std::string& command)
 {
     check(options);
-    const scenes::Scene scene = load_scene(options.scene, options.frame, options.quiet);
-    TradeView view{options.scene, options.size, options.frame};
-    Settings base = base_of(options.base);
-    if (options.needs)
-        for (const std::string& knob : needs_knobs(scene)) options.knobs.push_back(knob);
     catch_interrupts();
-
-    // Errors of names are found before anything takes long.
-    plan_of(base, options.knobs, images::unlimited_edges);
-    const int base_edges = max_edges_of(base, view);
-    const NamedTruth named =
-        options.truth.empty() ? cached_truth(options, scene, base_edges) : named_truth(options, scene);
-    view.size = std::to_string(named.golden.mean.width) + "x" + std::to_string(named.golden.mean.height);
-    if (named.max_edges < base_edges) base["max-edges"] = std::to_string(named.max_edges);
-    const trade::Truth truth(named.golden);
-
-    const TradePlan plan = plan_of(base, options.knobs, named.max_edges);
-    const auto configurations = configurations_of(plan, view, scene);
+    const TradeStudy what = study_of(options);
+    const trade::Truth truth(what.named.golden);
+    const auto configurations = configurations_of(what);
     const trade::StudyOptions study{options.seconds, options.rounds, options.seed,
                                     images::middle_exposure(truth.mean())};
     trade::Description description{PLUMBLINE_VERSION,
@@ -136,37 +97,31 @@ ExitStatus trade_command(TradeCommand options, const std::string& command)
                                    today(),
                                    processor_name(),
                                    std::max(1U, std::thread::hardware_concurrency()),
-                                   scene.name,
-                                   scene.hash,
-                                   named.source,
-                                   named.samples};
-    std::vector<trade::Measurements> measured(configurations.size());
-    if (options.resume && fs::exists(options.output)) try {
-            measured =
-                trade::restored(read_results(options.output), description, study, configurations, truth);
-        } catch (const std::invalid_argument& error) {
-            throw std::invalid_argument("--resume " + options.output + ": " + error.what());
-        }
+                                   what.scene.name,
+                                   what.scene.hash,
+                                   what.named.source,
+                                   what.named.samples};
+    auto measured = earlier(options, description, study, configurations, truth);
 
     const auto results = [&] {
         trade::Json json =
-            trade::results(description, study, configurations, plan.knobs, truth, measured);
-        json["requirements"] = needs_rows(scene, plan, measured);
+            trade::results(description, study, configurations, what.plan.knobs, truth, measured);
+        json["requirements"] = needs_rows(what.scene, what.plan, measured);
         return json;
     };
     const auto keep = [&] {
         if (!options.output.empty()) images::write_atomically(options.output, results().dump(1) + "\n");
     };
     {
-        Progress progress(scene.name, 0.0, 1.0, options.quiet);
+        Progress progress(what.scene.name, part_done(measured, options.rounds), 1.0, options.quiet);
         const trade::StudyMonitor monitor{[&](double done) { progress.update(done); },
                                           interrupt_requested, keep};
         description.complete = false; // what is kept on the way
         description.complete =
             trade::study(configurations, study, truth, trade::process_clock, monitor, measured);
     }
+    keep();
     const trade::Json found = results();
-    if (!options.output.empty()) images::write_atomically(options.output, found.dump(1) + "\n");
     if (!options.report.empty()) images::write_atomically(options.report, trade::page(found));
     std::cout << (options.json ? found.dump() + "\n" : trade::table(found)) << std::flush;
     if (description.complete) return fine;
@@ -185,8 +140,10 @@ void add_trade_command(CLI::App& program, Work& work)
     CLI::App* command =
         program.add_subcommand("trade", "Measure speed against accuracy of renders of a scene");
     add_trade_options(*command, *options);
-    command->footer("Knobs:\n" + describe_knobs() +
-                    "Example: plumbline trade scenes/cornell_glass.dae --report trade.html");
+    command->footer([] { // when it is asked for: it looks for a GPU
+        return "Knobs:\n" + describe_knobs() +
+               "Example: plumbline trade scenes/cornell_glass.dae --report trade.html";
+    });
     command->callback([options, command, &work] {
         options->size_given = command->count("--size") > 0;
         std::string line = "plumbline trade";

@@ -3,25 +3,13 @@
 // The knobs of `plumbline trade`: which options of `plumbline render` are varied, by which values, and
 // what they are compared with.
 
-#include "cli/render_command.h"
+#include "cli/trade_settings.h"
 #include "trade/study.h"
 
-#include <map>
 #include <string>
 #include <vector>
 
 namespace cli {
-
-/// Options of `plumbline render` without their dashes, with their values; "" for a flag. An option that
-/// is missing has its default.
-using Settings = std::map<std::string, std::string>;
-
-/// The scene and how it is seen: the same for all configurations.
-struct TradeView {
-    std::string scene;
-    std::string size;
-    bool frame = false;
-};
 
 /// Configurations and the knobs that they belong to. Configuration 0 is the base. The names say what
 /// differs from the base.
@@ -43,15 +31,5 @@ Settings base_of(const std::vector<std::string>& settings);
 /// renderer (device=ref), for example. `max_edges`: of the truth; the longest that is measured.
 /// Throws std::invalid_argument for names that are not known and for empty lists.
 TradePlan plan_of(const Settings& base, const std::vector<std::string>& knobs, int max_edges);
-
-/// The options of a render of `view` by these settings, checked as by `plumbline render`. Throws
-/// std::invalid_argument for what `plumbline render` refuses.
-RenderCommand render_of(const Settings& settings, const TradeView& view);
-
-/// The arguments of `plumbline` that render so, without the files that it writes.
-std::vector<std::string> arguments_of(const Settings& settings, const TradeView& view);
-
-/// The same as a command line to copy.
-std::string command_line(const Settings& settings, const TradeView& view);
 
 } // namespace cli

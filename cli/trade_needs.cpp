@@ -148,7 +148,7 @@ std::optional<Json> memory_row(const TradePlan& plan, const std::vector<trade::M
 
 std::vector<std::string> needs_knobs(const scenes::Scene& scene)
 {
-    std::vector<std::string> knobs = {"kernel-needs=scene,all"};
+    std::vector<std::string> knobs = {"kernel-needs=scene,all", "ref-tree=sah-leaf,sah"};
     std::string families;
     for (const auto& [family, proof] : proofs(scene))
         families += (families.empty() ? "" : ",") + std::string(scenes::name_of(family));
@@ -174,6 +174,12 @@ Json needs_rows(const scenes::Scene& scene, const TradePlan& plan,
     add_kinds("emitters", required.emitters);
     rows.push_back(kernel_row(scene, plan, measured));
     if (const auto row = memory_row(plan, measured)) rows.push_back(*row);
+
+    Json levels = row_of("tree levels", "leaves of up to 8 primitives where that costs less",
+                         "levels down to one primitive in a leaf (tree of ref)");
+    if (const auto pair = pair_of(plan, measured, "ref-tree", "sah"))
+        add_gain(levels, *pair->reference, *pair->value);
+    rows.push_back(levels);
 
     const auto impossible = proofs(scene);
     std::vector<scenes::Strategy> possible;

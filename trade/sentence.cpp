@@ -14,6 +14,7 @@ struct Beside {
     bool slower;             //
     Estimate pays;           // samples per pixel from which its longer build pays
     Estimate reference_pays; // the same of the reference's longer build
+    bool decided;            // whether it is biased
     double detectable;       // relative error of the whole that would have been found
 };
 
@@ -43,18 +44,20 @@ std::string say_times(const std::vector<Beside>& unbiased, const std::string& re
     if (fastest != nullptr) {
         std::string text = fastest->name + " reaches the error of " + reference + " in " +
                            to_text(fastest->time) + " of the time";
-        if (fastest->pays.stated())
+        if (fastest->pays.value > 1.0)
             text +=
                 ", and its longer build pays from " + to_text(fastest->pays) + " samples per pixel on";
-        return text + " (no bias was found; one of " + percent_to_text(fastest->detectable) +
-               " of the mean would have been)";
+        return text + (fastest->decided
+                           ? " (no bias was found; one of " + percent_to_text(fastest->detectable) +
+                                 " of the mean would have been)"
+                           : "");
     }
     if (slowest != nullptr) {
         std::string text =
             unbiased.size() > 1 ? "no value is certainly faster than " + reference + "; " : "";
         text += slowest->name + " takes " + to_text(slowest->time) + " times as long to the error of " +
                 reference;
-        if (slowest->reference_pays.stated())
+        if (slowest->reference_pays.value > 1.0)
             text += ", whose longer build pays from " + to_text(slowest->reference_pays) +
                     " samples per pixel on";
         return text;
@@ -89,10 +92,13 @@ std::string sentence(const Knob& knob, const std::vector<std::optional<Estimates
         const std::vector<Round>& others = measured[knob.reference].rounds;
         const Estimate time = time_to_equal_noise(rounds, others);
         const Estimate wide = time_to_equal_noise(rounds, others, shared);
-        if (time.stated())
-            unbiased.push_back({name_of(value.text), time, wide.high<1.0, wide.low> 1.0,
-                                samples_from_which_it_pays(rounds, others),
-                                samples_from_which_it_pays(others, rounds), found->bias.detectable});
+        if (!time.stated()) continue;
+        const bool faster = wide.high < 1.0;
+        const bool slower = wide.low > 1.0;
+        unbiased.push_back({name_of(value.text), time, faster, slower,
+                            samples_from_which_it_pays(rounds, others),
+                            samples_from_which_it_pays(others, rounds),
+                            found->bias.verdict == BiasVerdict::none_found, found->bias.detectable});
     }
     std::vector<std::string> parts;
     if (!unbiased.empty() || biased.empty()) parts.push_back(say_times(unbiased, reference));

@@ -88,7 +88,7 @@ TEST(TradeCommand, FindsTheBiasOfShortPathsInTheIntegratingSphere)
 // Uniform weights count strategies that cannot happen: through glass they lack light.
 TEST(TradeCommand, FindsThatUniformWeightsAreBiasedWhereThereIsGlassOnly)
 {
-    const Arguments options = {"--seconds", "6", "--rounds", "4", "--knobs", "heuristic=uniform"};
+    const Arguments options = {"--seconds", "3", "--rounds", "4", "--knobs", "heuristic=uniform"};
     const auto uniform = [&](const char* scene) {
         const Json results = results_of(trade(scene, options));
         for (const Json& one : results.at("configurations"))
@@ -125,7 +125,7 @@ TEST(TradeCommand, FindsWhichFamiliesCarryLight)
             return false;
         };
         const Json results =
-            results_of(trade(scene, {"--seconds", "4", "--rounds", "4", "--knobs", "without"}));
+            results_of(trade(scene, {"--seconds", "2.5", "--rounds", "4", "--knobs", "without"}));
         int found = 0;
         for (const Json& one : results.at("configurations")) {
             const std::string family = one.at("value");
@@ -138,10 +138,38 @@ TEST(TradeCommand, FindsWhichFamiliesCarryLight)
     }
 }
 
+// Over a plane no path has more than two edges.
+TEST(TradeCommand, ListsWhatTheSceneRequiresAndMeasuresTheGainOfLeavingOutTheRest)
+{
+    const Json results =
+        results_of(trade("area_light_over_plane", {"--needs", "--seconds", "2", "--rounds", "4"}));
+    const auto row = [&](const std::string& what) {
+        for (const Json& one : results.at("requirements"))
+            if (one.at("what") == what) return one;
+        throw std::runtime_error("no row " + what);
+    };
+    EXPECT_EQ(row("shapes").at("has"), "triangle");
+    EXPECT_EQ(row("bsdfs").at("left_out"), "mirror, glass");
+    EXPECT_EQ(row("strategies").at("has"), "emission_hit, next_event, light_image");
+    EXPECT_EQ(row("path length").at("has"), "at most 2 edges");
+    for (const char* what :
+         {"kernels", "strategy emission_hit", "strategy inner_connection", "path length"}) {
+        const Json gain = row(what).at("gain");
+        ASSERT_TRUE(gain.is_object()) << what;
+        EXPECT_LE(gain.at("low"), gain.at("value")) << what;
+        EXPECT_GT(gain.at("value"), 0.2) << what;
+        EXPECT_LT(gain.at("value"), 50.0) << what;
+    }
+    // To leave out what carries nothing changes nothing.
+    for (const Json& one : results.at("configurations"))
+        EXPECT_EQ(one.at("bias").at("verdict"), "none found") << one.at("name");
+}
+
 TEST(TradeCommand, StatesTimesMemoryAndCommandsOfEachConfiguration)
 {
-    const Json results = results_of(trade("cornell_diffuse", {"--seconds", "3", "--base", "max-edges=6",
-                                                              "--knobs", "instructions=best,baseline"}));
+    const Json results =
+        results_of(trade("cornell_diffuse", {"--seconds", "1.5", "--base", "max-edges=6", "--knobs",
+                                             "instructions=best,baseline"}));
     const Json& base = configuration(results, "base");
     EXPECT_EQ(base.at("bias").at("verdict"), "none found");
     EXPECT_NE(base.at("command").get<std::string>().find("--max-edges 6"), std::string::npos);
@@ -197,7 +225,7 @@ TEST(TradeCommand, KeepsWhatIsMeasuredAndGoesOn)
     TemporaryFolder folder;
     const std::string json = (folder / "t.json").string();
     const Arguments command =
-        trade("furnace", {"--seconds", "8", "--rounds", "40", "--knobs", "threads=1,2", "-o", json});
+        trade("furnace", {"--seconds", "4", "--rounds", "40", "--knobs", "threads=1,2", "-o", json});
     Process process(command);
     ASSERT_TRUE(eventually([&] {
         return std::filesystem::exists(json) &&

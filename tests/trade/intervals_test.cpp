@@ -37,11 +37,12 @@ private:
     std::map<std::string, int> hits_, trials_;
 };
 
-constexpr int trials = 2000;
+constexpr int trials = 1000;
 constexpr std::size_t rounds = 8;
 const trade::Plan plan{8, 12};
 
-// 2,000 trials have a standard deviation of 0.5% at a rate of 95%: 93% to 97% is four of them.
+// 1,000 trials have a standard deviation of 0.7% at a rate of 95%: 93% to 97% is three of them. The
+// seeds are fixed.
 TEST(TradeIntervals, HoldTheTruthNineteenTimesOfTwenty)
 {
     Machine machine{std::mt19937_64(1)};
@@ -128,7 +129,7 @@ TEST(TradeFront, IsTheTrueOneNearlyAlways)
                                          {0.0, 1.0, 2e-3, 0.02}};
     Machine machine{std::mt19937_64(4)};
     Tally tally;
-    for (int trial = 0; trial < 500; ++trial) {
+    for (int trial = 0; trial < 300; ++trial) {
         const trade::Truth truth = simulated_truth(machine, 64);
         const auto all = measured(what, rounds, plan, truth, machine);
         std::vector<trade::Curve> curves;
