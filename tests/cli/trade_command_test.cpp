@@ -152,8 +152,7 @@ TEST(TradeCommand, ListsWhatTheSceneRequiresAndMeasuresTheGainOfLeavingOutTheRes
     EXPECT_EQ(row("bsdfs").at("left_out"), "mirror, glass");
     EXPECT_EQ(row("strategies").at("has"), "emission_hit, next_event, light_image");
     EXPECT_EQ(row("path length").at("has"), "at most 2 edges");
-    for (const char* what :
-         {"kernels", "strategy emission_hit", "strategy inner_connection", "path length"}) {
+    for (const char* what : {"kernels", "tree levels", "strategy inner_connection", "path length"}) {
         const Json gain = row(what).at("gain");
         ASSERT_TRUE(gain.is_object()) << what;
         EXPECT_LE(gain.at("low"), gain.at("value")) << what;
