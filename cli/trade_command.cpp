@@ -52,7 +52,7 @@ std::string processor_name()
 
 trade::Json read_results(const std::string& path)
 {
-    const auto json = trade::Json::parse(images::read_file(path), nullptr, false);
+    auto json = trade::Json::parse(images::read_file(path), nullptr, false);
     if (json.is_discarded()) throw std::invalid_argument("it is no JSON");
     return json;
 }

@@ -4,7 +4,6 @@
 //
 // Usage: figure_equal_time --help. 96 x 64 pixels, at most 6 edges, one thread.
 
-#include "trade/rounds.h"
 #include "docs/figures/measure.h"
 #include "docs/figures/program.h"
 #include "images/film.h"
@@ -13,6 +12,7 @@
 #include "ref/transport/path_tracer.h"
 #include "ref/transport/renderer.h"
 #include "ref/transport/subpath.h"
+#include "trade/rounds.h"
 
 #include <algorithm>
 #include <array>

@@ -4,13 +4,13 @@
 //
 // Usage: figure_fast_transport --help. 240 x 160 pixels, at most 6 edges.
 
-#include "trade/rounds.h"
 #include "cuda/launch/renderer.h"
 #include "docs/figures/measure.h"
 #include "docs/figures/program.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
 #include "ref/transport/renderer.h"
+#include "trade/rounds.h"
 
 #include <array>
 #include <chrono>
@@ -92,7 +92,7 @@ void compare(const scenes::Scene& scene, const figures::RoundOptions& options, s
     const images::Image truth =
         fast(scene, fast::Integrator::bdpt, 1, options.reference_seconds, options.seed).image;
     std::array<std::vector<double>, 2> efficiencies; // 1 / (relMSE s)
-    std::vector<trade::Measurement> measurements;      // for each integrator: fast, reference, two threads
+    std::vector<trade::Measurement> measurements;    // for each integrator: fast, reference, two threads
     const auto seed_of = [&](std::size_t round) { return options.seed + 1 + round; };
     for (std::size_t i = 0; i < integrators.size(); ++i) {
         measurements.emplace_back([&, i](std::size_t round) {

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace {
 
@@ -54,6 +56,37 @@ TEST(Study, MeasuresEveryConfigurationOnceARoundInAboutTheTimeGiven)
     EXPECT_EQ(kept, 4);
     EXPECT_EQ(progress, 1.0);
     EXPECT_NEAR(example.machine.now.wall - start, 12.0, 4.0); // with the search for plans
+}
+
+// Equal seeds in all rounds would make each round the same picture, and all intervals too narrow. An
+// order that does not change would favour the same configuration in every round.
+TEST(Study, DrawsSeedsAndOrderAnewInEachRound)
+{
+    Example example;
+    std::vector<std::pair<std::size_t, std::uint64_t>> measured; // configuration, seed
+    for (std::size_t i = 0; i < 3; ++i)
+        example.configurations[i].make = [&, i, inner = example.configurations[i].make](
+                                             std::uint32_t batch_size, std::uint64_t seed) {
+            measured.emplace_back(i, seed);
+            return inner(batch_size, seed);
+        };
+    example.options.rounds = 8;
+    ASSERT_TRUE(example.run());
+    measured.erase(measured.begin(), measured.end() - 24); // the search for plans
+    std::set<std::uint64_t> seeds;
+    std::set<std::vector<std::size_t>> orders;
+    for (std::size_t round = 0; round < 8; ++round) {
+        std::vector<std::size_t> order;
+        for (std::size_t k = 0; k < 3; ++k) {
+            order.push_back(measured[3 * round + k].first);
+            EXPECT_EQ(measured[3 * round + k].second, measured[3 * round].second);
+        }
+        EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), 3U);
+        seeds.insert(measured[3 * round].second);
+        orders.insert(order);
+    }
+    EXPECT_EQ(seeds.size(), 8U);
+    EXPECT_GE(orders.size(), 3U); // of 6; fewer in one of 1e4 cases, and the seed is fixed
 }
 
 TEST(Study, IsDescribedByItsResults)
