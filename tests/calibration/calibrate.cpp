@@ -3,6 +3,7 @@
 // the same tables.
 
 #include "cli/progress.h"
+#include "golden/false_alarm.h"
 #include "images/atomic_file.h"
 #include "tests/calibration/experiments.h"
 
