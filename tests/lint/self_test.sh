@@ -56,6 +56,12 @@ expect fail headers.sh golden/a.h 'std::string f();'
 expect pass headers.sh golden/a.h $'#pragma once\n#include "golden/b.h"'
 expect fail headers.sh golden/a.h $'#pragma once\n#include "golden/b.h"\nstd::string f();'
 rm "$root/golden/b.h"
+# The program to compile is named.
+printf 'int main() { return 0; }\n' >"$root/tests/a.cpp"
+bash "$here/programs.sh" "$root" c++ tests/a.cpp >/dev/null 2>&1 || { echo 'programs.sh should pass'; failures=$((failures + 1)); }
+printf 'int main() { return f(); }\n' >"$root/tests/a.cpp"
+! bash "$here/programs.sh" "$root" c++ tests/a.cpp >/dev/null 2>&1 || { echo 'programs.sh should fail'; failures=$((failures + 1)); }
+rm "$root/tests/a.cpp"
 if command -v clang-format >/dev/null; then
     expect pass format.sh golden/a.h 'int f();'
     expect fail format.sh golden/a.h 'int   f( ) ;'
