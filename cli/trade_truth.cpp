@@ -6,11 +6,13 @@
 #include "cli/render_metadata.h"
 #include "cli/renderer_for.h"
 #include "cli/scene_input.h"
+#include "images/atomic_file.h"
 #include "images/whole_number.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
-#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -49,10 +51,11 @@ fs::path file_of_truth(const TradeCommand& options, const scenes::Scene& scene, 
 {
     const std::string edges =
         max_edges == images::unlimited_edges ? "unlimited" : std::to_string(max_edges);
-    std::string seconds = std::to_string(std::lround(options.truth_seconds));
+    std::array<char, 32> seconds{};
+    std::snprintf(seconds.data(), seconds.size(), "%g", options.truth_seconds);
     return fs::path(cache_folder(options)) /
            (scene.name + "-" + scene.hash.substr(0, 16) + "-" + options.size +
-            (options.frame ? "-framed" : "") + "-" + edges + "-" + seconds + "s.exr");
+            (options.frame ? "-framed" : "") + "-" + edges + "-" + seconds.data() + "s.exr");
 }
 
 /// So many samples per pixel in a batch that all batches take about the time that was asked for.
@@ -121,6 +124,7 @@ NamedTruth cached_truth(const TradeCommand& options, const scenes::Scene& scene,
     const fs::path path = file_of_truth(options, scene, max_edges);
     std::error_code ignored; // a folder that cannot be made is an error of the write
     fs::create_directories(path.parent_path(), ignored);
+    images::check_place(path); // before it is rendered
 
     golden::GoldenMaker maker(size.width, size.height, pilot_batches);
     if (fs::exists(path)) {

@@ -28,7 +28,7 @@ function(plumbline_tidy_file name target)
     foreach(property IN ITEMS LINK_LIBRARIES COMPILE_DEFINITIONS COMPILE_OPTIONS INCLUDE_DIRECTORIES)
         get_target_property(value ${target} ${property})
         if(value)
-            list(FILTER value EXCLUDE REGEX "^--param=") # of GCC's own; clang would warn of them
+            list(FILTER value EXCLUDE REGEX "^(--param=|-fno-gnu-unique)") # of GCC's own; clang would warn of them
             set_target_properties(tidy_${name} PROPERTIES ${property} "${value}")
         endif()
     endforeach()

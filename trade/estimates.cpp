@@ -131,8 +131,9 @@ Bias bias_of(const std::vector<Round>& rounds, const Truth& truth, const Levels&
 {
     const std::vector<Region>& regions = truth.regions();
     // Bonferroni: over the regions, and over the configurations.
-    const double level = levels.false_mark / static_cast<double>(regions.size()) /
-                         static_cast<double>(std::max<std::size_t>(1, levels.configurations));
+    const double comparisons = static_cast<double>(regions.size()) *
+                               static_cast<double>(std::max<std::size_t>(1, levels.configurations));
+    const double level = levels.false_mark / comparisons;
     std::vector<RegionTest> tests;
     for (std::size_t r = 0; r < regions.size(); ++r) {
         std::vector<golden::Moments> each;
@@ -159,15 +160,17 @@ Bias bias_of(const std::vector<Round>& rounds, const Truth& truth, const Levels&
         golden::detectable_difference(error * largest_deviation(degrees), degrees, level, levels.power) /
         tests[0].expected.mean;
 
-    std::size_t marked = tests.size();
+    std::size_t strongest = tests.size();
     for (std::size_t r = 0; r < tests.size(); ++r)
-        if (tests[r].conclusive && tests[r].test.p < level &&
-            (marked == tests.size() || tests[r].test.p < tests[marked].test.p))
-            marked = r;
-    if (marked < tests.size()) {
+        if (tests[r].conclusive &&
+            (strongest == tests.size() || tests[r].test.p < tests[strongest].test.p))
+            strongest = r;
+    if (strongest < tests.size()) bias.p = golden::bonferroni(tests[strongest].test.p, comparisons);
+    if (bias.p < levels.false_mark) {
         bias.verdict = BiasVerdict::biased;
-        bias.reason = regions[marked].name + " has an error of " +
-                      percent_to_text(tests[marked].found.mean / tests[marked].expected.mean - 1.0);
+        bias.reason =
+            regions[strongest].name + " has an error of " +
+            percent_to_text(tests[strongest].found.mean / tests[strongest].expected.mean - 1.0);
     } else if (!tests[0].conclusive) {
         bias.reason = "the noise of the whole picture is too skewed for a test";
     } else {

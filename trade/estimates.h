@@ -33,6 +33,9 @@ struct Bias {
     Estimate whole; // of the picture: 0.01 is one percent too bright
     Estimate worst; // of the stratum with the strongest evidence, for all strata at once
     std::string worst_region;
+    /// The chance that an unbiased study has evidence as strong as this one's anywhere: the smallest
+    /// p-value of the conclusive tests, times the number of regions and configurations, at most 1.
+    double p = 1.0;
     /// The relative error of the whole that is found with probability `power`, even if the noise is as
     /// much larger than measured as one time in twenty.
     double detectable = 0.0;

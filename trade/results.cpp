@@ -36,9 +36,13 @@ Json json_of(const Times& times)
 
 Json json_of(const Bias& bias)
 {
-    return {{"verdict", describe(bias.verdict)},     {"whole", json_of(bias.whole)},
-            {"worst", json_of(bias.worst)},          {"worst_region", bias.worst_region},
-            {"detectable", number(bias.detectable)}, {"reason", bias.reason}};
+    return {{"verdict", describe(bias.verdict)},
+            {"whole", json_of(bias.whole)},
+            {"worst", json_of(bias.worst)},
+            {"worst_region", bias.worst_region},
+            {"p", number(bias.p)},
+            {"detectable", number(bias.detectable)},
+            {"reason", bias.reason}};
 }
 
 /// Mean and range.

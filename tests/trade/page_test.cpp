@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
+#include <cctype>
 
 namespace {
 
@@ -49,11 +49,15 @@ TEST(TradePage, NamesNoOtherFiles)
 {
     const std::string text = markup(trade::page(sample_results()));
     EXPECT_GT(text.size(), 2000u);
-    const std::regex reference(
-        R"(\s(src|href|srcset|action|data|poster)\s*=|<(link|base|iframe|object|embed)\b|@import|url\()",
-        std::regex::icase);
-    std::smatch found;
-    EXPECT_FALSE(std::regex_search(text, found, reference)) << found.str();
+    std::string plain; // in lower case, each white space a blank, none before "="
+    for (const char c : text) {
+        const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
+        while (c == '=' && plain.ends_with(' ')) plain.pop_back();
+        plain += blank ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    for (const char* reference : {" src=", " href=", " srcset=", " action=", " data=", " poster=",
+                                  "<link", "<base", "<iframe", "<object", "<embed", "@import", "url("})
+        EXPECT_EQ(plain.find(reference), std::string::npos) << reference;
     EXPECT_EQ(text.find("http"), std::string::npos);
 }
 
@@ -65,10 +69,13 @@ TEST(TradePage, HoldsTheDataAsTheyAre)
 
 TEST(TradePage, EveryMarkIsFilled)
 {
-    const std::regex mark("@[A-Z][A-Z0-9_]+@");
     const std::string page = trade::page(sample_results());
-    std::smatch found;
-    EXPECT_FALSE(std::regex_search(page, found, mark)) << found.str();
+    const std::string capitals = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+    for (std::size_t at = page.find('@'); at != std::string::npos; at = page.find('@', at + 1)) {
+        const std::size_t end = page.find_first_not_of(capitals, at + 1);
+        EXPECT_FALSE(end != std::string::npos && end > at + 1 && page[end] == '@')
+            << page.substr(at, end - at + 1);
+    }
     EXPECT_NE(page.find("Michael Bostock"), std::string::npos); // the licence of D3 asks for it
 }
 
