@@ -106,11 +106,14 @@ ExitStatus trade_command(const TradeCommand& options, const std::string& command
     const auto results = [&] {
         trade::Json json =
             trade::results(description, study, configurations, what.plan.knobs, truth, measured);
-        json["requirements"] = needs_rows(what.scene, what.plan, measured);
+        json["requirements"] = needs_rows(what.scene, what.kernels, what.plan, measured);
         return json;
     };
+    const auto write = [&](const trade::Json& json) {
+        if (!options.output.empty()) images::write_atomically(options.output, json.dump(1) + "\n");
+    };
     const auto keep = [&] {
-        if (!options.output.empty()) images::write_atomically(options.output, results().dump(1) + "\n");
+        if (!options.output.empty()) write(results());
     };
     {
         Progress progress(what.scene.name, part_done(measured, options.rounds), 1.0, options.quiet);
@@ -120,8 +123,8 @@ ExitStatus trade_command(const TradeCommand& options, const std::string& command
         description.complete =
             trade::study(configurations, study, truth, trade::process_clock, monitor, measured);
     }
-    keep();
     const trade::Json found = results();
+    write(found);
     if (!options.report.empty()) images::write_atomically(options.report, trade::page(found));
     std::cout << (options.json ? found.dump() + "\n" : trade::table(found)) << std::flush;
     if (description.complete) return fine;

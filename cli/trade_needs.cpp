@@ -1,6 +1,5 @@
 #include "cli/trade_needs.h"
 
-#include "cuda/scene/scene_arrays.h"
 #include "scenes/longest_path.h"
 #include "scenes/requirements.h"
 #include "trade/estimates.h"
@@ -81,7 +80,7 @@ void add_gain(Json& row, const trade::Measurements& fewer, const trade::Measurem
 {
     const trade::Estimate gain = trade::speed(fewer.rounds, more.rounds);
     if (!gain.stated()) return;
-    row["gain"] = {{"value", gain.value}, {"low", gain.low}, {"high", gain.high}};
+    row["gain"] = trade::json_of(gain);
     row["sentence"] = gain.low > 1.0 ? "It is " + to_text(gain) + " times as fast without."
                       : gain.high < 1.0
                           ? "It is slower without: " + to_text(gain) + " times as fast."
@@ -98,10 +97,9 @@ Json row_of(const std::string& what, const std::string& has, const std::string& 
 }
 
 /// The kernels of the fast path, and their gain over those that can do everything.
-Json kernel_row(const scenes::Scene& scene, const TradePlan& plan,
+Json kernel_row(const fast::Needs& needs, const TradePlan& plan,
                 const std::vector<trade::Measurements>& measured)
 {
-    const fast::Needs needs = fast::compiled_for(fast::scene_arrays(scene, true).needs);
     std::string has = "triangles, Lambertian";
     std::string left_out;
     const auto sort = [&](bool needed, const char* text) {
@@ -135,7 +133,7 @@ std::optional<Json> memory_row(const TradePlan& plan, const std::vector<trade::M
     const trade::Estimate ratio{mean(pair->value->peak_bytes) / mean(pair->reference->peak_bytes),
                                 low / own_high, high / own_low};
     Json row = row_of("memory", "that of the kernels above", "that of kernels for everything");
-    row["gain"] = {{"value", ratio.value}, {"low", ratio.low}, {"high", ratio.high}};
+    row["gain"] = trade::json_of(ratio);
     row["sentence"] =
         (ratio.low > 1.0 ? "Kernels for everything take " + to_text(ratio) + " times the memory"
                          : "No gain was measured: kernels for everything take " + to_text(ratio) +
@@ -158,7 +156,7 @@ std::vector<std::string> needs_knobs(const scenes::Scene& scene)
     return knobs;
 }
 
-Json needs_rows(const scenes::Scene& scene, const TradePlan& plan,
+Json needs_rows(const scenes::Scene& scene, const fast::Needs& kernels, const TradePlan& plan,
                 const std::vector<trade::Measurements>& measured)
 {
     const scenes::Requirements required = scenes::requirements(scene);
@@ -172,7 +170,7 @@ Json needs_rows(const scenes::Scene& scene, const TradePlan& plan,
     add_kinds("shapes", required.shapes);
     add_kinds("bsdfs", required.bsdfs);
     add_kinds("emitters", required.emitters);
-    rows.push_back(kernel_row(scene, plan, measured));
+    rows.push_back(kernel_row(kernels, plan, measured));
     if (const auto row = memory_row(plan, measured)) rows.push_back(*row);
 
     Json levels = row_of("tree levels", "leaves of up to 8 primitives where that costs less",

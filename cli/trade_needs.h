@@ -4,6 +4,7 @@
 // out gains.
 
 #include "cli/trade_knobs.h"
+#include "cuda/transport/needs.h"
 #include "scenes/scene.h"
 #include "trade/results.h"
 
@@ -18,8 +19,8 @@ std::vector<std::string> needs_knobs(const scenes::Scene& scene);
 
 /// The requirements as rows of the results: "what" (shapes, kernel ...), "has", "left_out" with the
 /// proof, "gain" (a factor with its interval, or null) and "sentence". Gains are measured where the
-/// plan has the configurations for them.
-trade::Json needs_rows(const scenes::Scene& scene, const TradePlan& plan,
+/// plan has the configurations for them. `kernels`: the abilities of the kernels for the scene.
+trade::Json needs_rows(const scenes::Scene& scene, const fast::Needs& kernels, const TradePlan& plan,
                        const std::vector<trade::Measurements>& measured);
 
 } // namespace cli

@@ -4,6 +4,7 @@
 #include "cli/run_self.h"
 #include "cli/scene_input.h"
 #include "cli/trade_needs.h"
+#include "cuda/scene/scene_arrays.h"
 
 #include <nlohmann/json.hpp>
 
@@ -59,12 +60,13 @@ TradeStudy study_of(TradeCommand options)
     TradePlan plan = plan_of(base, options.knobs, max_edges);
     for (const Settings& settings : plan.settings) render_of(settings, view);
     if (!named) named = cached_truth(options, scene, max_edges);
-    return {std::move(scene), std::move(view), std::move(plan), std::move(*named)};
+    const fast::Needs kernels = fast::compiled_for(fast::scene_arrays(scene, true).needs);
+    return {std::move(scene), std::move(view), std::move(plan), std::move(*named), kernels};
 }
 
 std::vector<trade::Configuration> configurations_of(const TradeStudy& study)
 {
-    const auto& [scene, view, plan, named] = study;
+    const auto& [scene, view, plan, named, kernels] = study;
     std::vector<trade::Configuration> configurations;
     for (std::size_t i = 0; i < plan.settings.size(); ++i) {
         RenderCommand render = render_of(plan.settings[i], view);

@@ -5,6 +5,7 @@
 #include "cli/trade_command.h"
 #include "cli/trade_knobs.h"
 #include "cli/trade_truth.h"
+#include "cuda/transport/needs.h"
 #include "scenes/scene.h"
 #include "trade/study.h"
 
@@ -17,6 +18,7 @@ struct TradeStudy {
     TradeView view;
     TradePlan plan;
     NamedTruth named;
+    fast::Needs kernels; // the abilities of the fast path's kernels for the scene
 };
 
 /// Reads the scene, finds the errors of names and values before anything takes long, then finds or

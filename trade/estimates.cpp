@@ -3,7 +3,6 @@
 #include "trade/rounds.h"
 
 #include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +11,6 @@
 namespace trade {
 
 namespace {
-
-double student_quantile(double degrees, double confidence)
-{
-    if (std::isinf(degrees)) degrees = 1e12;
-    return boost::math::quantile(
-        boost::math::complement(boost::math::students_t(degrees), (1.0 - confidence) / 2.0));
-}
 
 /// By which factor a standard deviation may exceed its estimate, with a chance of 5%.
 double largest_deviation(double degrees)
@@ -58,14 +50,6 @@ Seconds render_of(const Round& round)
 {
     return {seconds_of(round.render.wall) / round.samples(),
             seconds_of(round.render.cpu) / round.samples()};
-}
-
-Estimate interval_of(const golden::Moments& moments, double confidence)
-{
-    if (moments.count < 2.0) return {};
-    const double half_width =
-        student_quantile(moments.count - 1.0, confidence) * std::sqrt(moments.variance / moments.count);
-    return {moments.mean, moments.mean - half_width, moments.mean + half_width};
 }
 
 bool is_skewed(const golden::Moments& moments, const Levels& levels)
@@ -224,9 +208,10 @@ Estimates estimate(const std::vector<Round>& rounds, const Truth& truth, const L
     const golden::Moments noise = golden::pooled(each);
     result.skewed = is_skewed(noise, levels);
     result.noise = noise_interval(noise, levels.confidence);
-    result.bias_squared =
-        interval_of(golden::moments(by_round(rounds, [](const Round& r) { return r.bias_squared; })),
-                    levels.confidence);
+    const Measured squared = mean_of_rounds(
+        by_round(rounds, [](const Round& r) { return r.bias_squared; }), levels.confidence);
+    result.bias_squared = {squared.mean, squared.mean - squared.half_width,
+                           squared.mean + squared.half_width};
     result.relmse_1s = product(noise, by_round(rounds, [](const Round& r) { return render_of(r).wall; }),
                                levels.confidence);
     if (result.relmse_1s.stated())

@@ -22,13 +22,6 @@ Json number(double value)
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json json_of(const Estimate& estimate)
-{
-    return {{"value", number(estimate.value)},
-            {"low", number(estimate.low)},
-            {"high", number(estimate.high)}};
-}
-
 Json json_of(const Times& times)
 {
     return {{"wall", json_of(times.wall)}, {"cpu", json_of(times.cpu)}};
@@ -206,6 +199,13 @@ Json json_of_configuration(std::size_t i, const Parts& parts)
 }
 
 } // namespace
+
+Json json_of(const Estimate& estimate)
+{
+    return {{"value", number(estimate.value)},
+            {"low", number(estimate.low)},
+            {"high", number(estimate.high)}};
+}
 
 Json results(const Description& description, const StudyOptions& options,
              const std::vector<Configuration>& configurations, const std::vector<Knob>& knobs,

@@ -3,6 +3,7 @@
 // A study as data: the JSON that `plumbline trade` writes, and from which its page is made.
 // docs/trade.md describes the format.
 
+#include "trade/estimate.h"
 #include "trade/study.h"
 #include "trade/truth.h"
 
@@ -31,6 +32,9 @@ struct Description {
     double precision = 0.1;
     bool complete = true; // not interrupted
 };
+
+/// {"value", "low", "high"}; null for what is not a finite number.
+Json json_of(const Estimate& estimate);
 
 /// All numbers, with intervals, and the raw measurements. Numbers that are not stated are null.
 Json results(const Description& description, const StudyOptions& options,

@@ -1,6 +1,7 @@
 #include "trade/round.h"
 
 #include "images/film.h"
+#include "trade/relative_error.h"
 
 #include <algorithm>
 #include <chrono>
@@ -22,18 +23,6 @@ void add(Seconds& sum, const Seconds& part)
 {
     sum.wall += part.wall;
     sum.cpu += part.cpu;
-}
-
-/// The mean over pixels and channels of weight * (a - b)^2.
-double weighted_square(const images::Image& weights, const images::Image& a, const images::Image& b)
-{
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        const images::Rgb d = a.pixels[i] - b.pixels[i];
-        const images::Rgb& w = weights.pixels[i];
-        sum += w.x * d.x * d.x + w.y * d.y * d.y + w.z * d.z * d.z;
-    }
-    return sum / (3.0 * static_cast<double>(a.pixels.size()));
 }
 
 /// The relMSE of one sample per pixel as each batch estimates it. With x_b a batch of n samples per

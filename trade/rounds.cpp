@@ -13,13 +13,18 @@
 
 namespace trade {
 
+double student_quantile(double degrees, double confidence)
+{
+    if (std::isinf(degrees)) degrees = 1e12;
+    return boost::math::quantile(
+        boost::math::complement(boost::math::students_t(degrees), (1.0 - confidence) / 2.0));
+}
+
 Measured mean_of_rounds(const std::vector<double>& rounds, double confidence)
 {
     if (rounds.size() < 2) throw std::invalid_argument("an interval needs at least two rounds");
     const golden::Moments moments = golden::moments(rounds);
-    const boost::math::students_t student(moments.count - 1.0);
-    const double quantile =
-        boost::math::quantile(boost::math::complement(student, (1.0 - confidence) / 2.0));
+    const double quantile = student_quantile(moments.count - 1.0, confidence);
     return {moments.mean, quantile * std::sqrt(moments.variance / moments.count)};
 }
 

@@ -20,6 +20,10 @@ struct Measured {
     double half_width;
 };
 
+/// The two-sided quantile of Student's distribution: how many standard errors the half width of an
+/// interval of this confidence has. `degrees` of freedom may be infinite.
+double student_quantile(double degrees, double confidence);
+
 /// The mean of one value per round, with Student's interval: the rounds are taken to be independent and
 /// roughly normally distributed. Throws std::invalid_argument for fewer than two rounds.
 Measured mean_of_rounds(const std::vector<double>& rounds, double confidence = 0.95);

@@ -1,5 +1,7 @@
 #include "trade/truth.h"
 
+#include "trade/relative_error.h"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -42,8 +44,9 @@ std::vector<double> brightness_of_batches(const golden::Golden& golden, std::siz
 } // namespace
 
 Truth::Truth(const golden::Golden& golden)
-    : mean_(golden.mean), standard_error_(golden.standard_error), weights_(mean_),
-      stratum_of_(mean_.pixels.size(), no_region)
+    : mean_(golden.mean), standard_error_(golden.standard_error), weights_(relative_weights(mean_)),
+      stratum_of_(mean_.pixels.size(), no_region),
+      own_error_(weighted_square(weights_, standard_error_, images::Image(mean_.width, mean_.height)))
 {
     if (golden.reference.size() < 2)
         throw std::invalid_argument("a truth needs two batches after its pilot at least");
@@ -71,18 +74,6 @@ Truth::Truth(const golden::Golden& golden)
             {golden::describe(region), golden::moments(batches), *std::ranges::max_element(batches)});
         pilot_sums_.push_back(sum);
     }
-
-    double m = 0.0;
-    for (const images::Rgb& pixel : mean_.pixels)
-        m += sum_of_channels(pixel) / (3.0 * static_cast<double>(mean_.pixels.size()));
-    for (std::size_t i = 0; i < mean_.pixels.size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            const double truth = mean_.pixels[i][c];
-            const double error = standard_error_.pixels[i][c];
-            weights_.pixels[i][c] = 1.0 / (truth * truth + 1e-4 * m * m);
-            own_error_ +=
-                weights_.pixels[i][c] * error * error / (3.0 * static_cast<double>(mean_.pixels.size()));
-        }
 }
 
 std::vector<double> Truth::brightness(const images::Image& picture) const

@@ -38,9 +38,7 @@ public:
     /// Of `mean`, per pixel.
     [[nodiscard]] const images::Image& standard_error() const { return standard_error_; }
 
-    /// 1 / (truth^2 + 1e-4 m^2) per pixel and channel, m the mean of the truth: the weight of a squared
-    /// error in the relative mean square error (relMSE) [Rousselle et al. 2011]. The second term keeps
-    /// dark pixels from deciding alone.
+    /// relative_weights of the mean.
     [[nodiscard]] const images::Image& weights() const { return weights_; }
 
     /// The relMSE of the truth itself, by its standard errors.
@@ -53,7 +51,7 @@ private:
     std::vector<Region> regions_;
     std::vector<std::size_t> stratum_of_; // by pixel: index into regions_; 0 for a black stratum
     std::vector<double> pilot_sums_;      // by region
-    double own_error_ = 0.0;
+    double own_error_;
 };
 
 } // namespace trade
