@@ -12,9 +12,10 @@ tracked '*.h' '*.cpp' '*.cu' '*.cuh' | xargs -0 -r awk '
         may["trade"] = " trade golden images "
         may["ref"] = " ref scenes images "
         may["cuda"] = " cuda scenes images "
-        may["cli"] = " cli ref cuda golden trade scenes images "
-        may["docs"] = " docs cli ref cuda golden trade scenes images "
-        may["tests"] = " tests cli ref cuda golden trade scenes images "
+        may["extremes"] = " extremes ref cuda scenes images "
+        may["cli"] = " cli ref cuda golden trade extremes scenes images "
+        may["docs"] = " docs cli ref cuda golden trade extremes scenes images "
+        may["tests"] = " tests cli ref cuda golden trade extremes scenes images "
     }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
         split(FILENAME, from, "/")

@@ -1,0 +1,111 @@
+#include "extremes/walk.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+namespace extremes {
+
+namespace {
+
+constexpr int cases_of_chunk = 250;
+
+/// A number that looks random for each pair (a, b): the finalizer of SplitMix64 [Steele, Lea and Flood
+/// 2014].
+std::uint64_t mixed(std::uint64_t a, std::uint64_t b)
+{
+    std::uint64_t z = a + (b + 1) * 0x9e3779b97f4a7c15;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+}
+
+std::size_t index_of_ordinary(const Axis& axis)
+{
+    const auto found = std::ranges::find(axis.values, axis.ordinary);
+    if (found == axis.values.end())
+        throw std::logic_error("axis " + axis.name + ": its ordinary value is not one of its values");
+    return static_cast<std::size_t>(found - axis.values.begin());
+}
+
+} // namespace
+
+std::optional<Tally> visit(const Axis& axis, const Method& method, double parameter,
+                           const WalkOptions& options)
+{
+    const int cases = std::min(options.cases, axis.most_cases);
+    const int chunks = (cases + cases_of_chunk - 1) / cases_of_chunk;
+    const std::uint64_t seed = mixed(mixed(options.seed, static_cast<std::uint64_t>(axis.number)),
+                                     std::bit_cast<std::uint64_t>(parameter));
+    std::vector<Tally> tallies(static_cast<std::size_t>(chunks));
+    std::atomic<int> next = 0;
+    std::atomic<bool> stopped = false;
+    std::mutex mutex; // of stop() and of `thrown`
+    std::exception_ptr thrown;
+    const auto work = [&] {
+        for (;;) {
+            {
+                const std::lock_guard lock(mutex);
+                if (options.stop()) stopped = true;
+            }
+            if (stopped) return;
+            const int chunk = next++;
+            if (chunk >= chunks) return;
+            try {
+                Random random(mixed(seed, static_cast<std::uint64_t>(chunk)));
+                method.run(parameter, random, std::min(cases_of_chunk, cases - chunk * cases_of_chunk),
+                           tallies[static_cast<std::size_t>(chunk)]);
+            } catch (...) {
+                const std::lock_guard lock(mutex);
+                thrown = std::current_exception();
+                stopped = true;
+            }
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        const int count = std::min(static_cast<int>(options.threads), chunks);
+        for (int i = 1; i < count; ++i) others.emplace_back(work);
+        work();
+    }
+    if (thrown) std::rethrow_exception(thrown);
+    if (stopped) return std::nullopt;
+    Tally sum;
+    for (const Tally& tally : tallies) sum += tally;
+    return sum;
+}
+
+std::optional<SafeRange> safe_range(const Axis& axis, const std::function<const Tally&(std::size_t)>& at)
+{
+    std::size_t first = index_of_ordinary(axis);
+    if (at(first).failures() > 0) return std::nullopt;
+    std::size_t last = first;
+    while (first > 0 && at(first - 1).failures() == 0) --first;
+    while (last + 1 < axis.values.size() && at(last + 1).failures() == 0) ++last;
+    return SafeRange{axis.values[first], axis.values[last]};
+}
+
+std::optional<double> first_failure(const Axis& axis, Failure kind, bool above,
+                                    const std::function<const Tally&(std::size_t)>& at)
+{
+    for (std::size_t i = index_of_ordinary(axis);;) {
+        if (at(i).failures(kind) > 0) return axis.values[i];
+        if (above ? i + 1 == axis.values.size() : i == 0) return std::nullopt;
+        above ? ++i : --i;
+    }
+}
+
+std::vector<double> powers_of_ten(double from, double to, double step)
+{
+    std::vector<double> values;
+    const auto steps = static_cast<int>(std::lround((to - from) / step));
+    for (int i = 0; i <= steps; ++i) values.push_back(std::pow(10.0, from + i * step));
+    return values;
+}
+
+} // namespace extremes

@@ -1,0 +1,108 @@
+// Both sides of every stated limit: inside, every random case has an error within the bound and none
+// fails; just outside, the stated failure occurs.
+
+#include "extremes/axis.h"
+#include "extremes/walk.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <ostream>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace extremes {
+
+struct NamedLimit {
+    Axis axis;
+    Limit limit;
+    std::string name; // for gtest: letters, digits and "_"
+
+    [[nodiscard]] const Method& method() const
+    {
+        const auto found = std::ranges::find(axis.methods, limit.method, &Method::name);
+        if (found == axis.methods.end())
+            throw std::logic_error(name + " names a method that does not exist");
+        return *found;
+    }
+};
+
+void PrintTo(const NamedLimit& limit, std::ostream* out)
+{
+    *out << limit.name;
+}
+
+namespace {
+
+std::vector<NamedLimit> all_limits()
+{
+    std::vector<NamedLimit> result;
+    for (const Axis& axis : all_axes())
+        for (const Limit& limit : axis.limits) {
+            std::string name =
+                axis.name + "_" + limit.method + (limit.safe < axis.ordinary ? "_below" : "_above");
+            std::ranges::replace_if(
+                name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+            result.push_back({axis, limit, name});
+        }
+    return result;
+}
+
+/// The number of cases: 10^5, or as many as the environment asks for.
+int cases_inside()
+{
+    const char* text = std::getenv("PLUMBLINE_LONG");
+    return text != nullptr && std::string(text) != "0" ? 1'000'000 : 100'000;
+}
+
+} // namespace
+
+class Limits : public testing::TestWithParam<NamedLimit> {};
+
+TEST_P(Limits, InsideEveryCaseIsWithinTheBound)
+{
+    const auto& [axis, limit, name] = GetParam();
+    const Method& method = GetParam().method();
+    const std::uint64_t seed = std::random_device{}();
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    // Groups of cases at random parameters; and the two ends of the range.
+    constexpr int groups = 100;
+    const int cases = std::min(cases_inside(), axis.most_cases);
+    for (int group = 0; group < groups; ++group) {
+        double parameter = axis.logarithmic ? random.log_between(axis.ordinary, limit.safe)
+                                            : random.between(axis.ordinary, limit.safe);
+        if (group == 0) parameter = axis.ordinary;
+        if (group == 1) parameter = limit.safe;
+        Tally tally;
+        method.run(parameter, random, std::max(cases / groups, 1), tally);
+        ASSERT_GT(tally.errors(), 0u) << axis.parameter << ": " << parameter;
+        for (std::size_t kind = 0; kind < failure_kinds; ++kind)
+            EXPECT_EQ(tally.failures(static_cast<Failure>(kind)), 0u)
+                << failure_names[kind] << " at " << axis.parameter << ": " << parameter << " "
+                << tally.refusal();
+        EXPECT_LE(tally.largest(), limit.bound(parameter)) << axis.parameter << ": " << parameter;
+        if (HasFailure()) return;
+    }
+}
+
+TEST_P(Limits, OutsideTheStatedFailureOccurs)
+{
+    const auto& [axis, limit, name] = GetParam();
+    Random random(1);
+    Tally tally;
+    GetParam().method().run(limit.beyond, random, std::min(10'000, axis.most_cases), tally);
+    EXPECT_GT(tally.failures(limit.failure), 0u)
+        << extremes::name(limit.failure) << " at " << axis.parameter << ": " << limit.beyond;
+    EXPECT_TRUE(limit.safe < axis.ordinary ? limit.beyond < limit.safe : limit.beyond > limit.safe);
+}
+
+INSTANTIATE_TEST_SUITE_P(Axes, Limits, testing::ValuesIn(all_limits()),
+                         [](const auto& parameter) { return parameter.param.name; });
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Limits);
+
+} // namespace extremes

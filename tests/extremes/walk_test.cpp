@@ -1,0 +1,87 @@
+#include "extremes/walk.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <stdexcept>
+
+namespace extremes {
+
+namespace {
+
+/// An axis from 1e-3 to 1e3 whose cases have the error 1e-9 times a random number, and leak from 100 on.
+Axis simple_axis()
+{
+    Axis axis;
+    axis.number = 1;
+    axis.name = "simple";
+    axis.ordinary = 1.0;
+    axis.logarithmic = true;
+    axis.values = powers_of_ten(-3, 3, 1);
+    axis.methods = {
+        {"ref", Format::binary64, [](double parameter, Random& random, int cases, Tally& tally) {
+             for (int i = 0; i < cases; ++i)
+                 if (parameter >= 99)
+                     tally.add(Failure::leaked);
+                 else
+                     tally.add(1e-9 * random.uniform());
+         }}};
+    return axis;
+}
+
+} // namespace
+
+TEST(Walk, TheSameCasesForAnyNumberOfThreads)
+{
+    const Axis axis = simple_axis();
+    WalkOptions options;
+    options.cases = 1234;
+    const auto one = visit(axis, axis.methods[0], 1.0, options);
+    options.threads = 4;
+    const auto four = visit(axis, axis.methods[0], 1.0, options);
+    ASSERT_TRUE(one && four);
+    EXPECT_EQ(one->cases(), 1234u);
+    EXPECT_EQ(one->largest(), four->largest());
+    EXPECT_EQ(one->quantile(0.5), four->quantile(0.5));
+    options.seed = 2;
+    EXPECT_NE(visit(axis, axis.methods[0], 1.0, options)->largest(), one->largest());
+    EXPECT_NE(visit(axis, axis.methods[0], 0.1, options)->largest(),
+              visit(axis, axis.methods[0], 1.0, options)->largest());
+}
+
+TEST(Walk, NoMoreCasesThanTheAxisAllows)
+{
+    Axis axis = simple_axis();
+    axis.most_cases = 10;
+    EXPECT_EQ(visit(axis, axis.methods[0], 1.0, {})->cases(), 10u);
+}
+
+TEST(Walk, StopsAndPassesExceptionsOn)
+{
+    Axis axis = simple_axis();
+    WalkOptions options;
+    options.stop = [] { return true; };
+    EXPECT_FALSE(visit(axis, axis.methods[0], 1.0, options));
+    axis.methods[0].run = [](double, Random&, int, Tally&) { throw std::runtime_error("defect"); };
+    options.stop = [] { return false; };
+    options.threads = 2;
+    EXPECT_THROW(visit(axis, axis.methods[0], 1.0, options), std::runtime_error);
+}
+
+TEST(Walk, FindsTheFirstFailureOnEachSide)
+{
+    const Axis axis = simple_axis();
+    std::map<std::size_t, Tally> tallies;
+    for (std::size_t i = 0; i < axis.values.size(); ++i)
+        tallies[i] = *visit(axis, axis.methods[0], axis.values[i], {});
+    const auto at = [&](std::size_t i) -> const Tally& { return tallies.at(i); };
+    EXPECT_EQ(first_failure(axis, Failure::leaked, true, at), 100.0);
+    EXPECT_FALSE(first_failure(axis, Failure::leaked, false, at));
+    EXPECT_FALSE(first_failure(axis, Failure::missed, true, at));
+    const auto safe = safe_range(axis, at);
+    ASSERT_TRUE(safe);
+    EXPECT_EQ(safe->from, axis.values.front());
+    EXPECT_EQ(safe->to, 10.0);
+}
+
+} // namespace extremes
