@@ -3,6 +3,7 @@
 #include "cli/trade_command.h"
 
 #include "cli/interrupt.h"
+#include "cli/machine.h"
 #include "cli/progress.h"
 #include "cli/trade_needs.h"
 #include "cli/trade_study.h"
@@ -15,10 +16,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <array>
-#include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -29,26 +27,6 @@ namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// "2026-11-27", in local time.
-std::string today()
-{
-    const std::time_t now = std::time(nullptr);
-    std::tm broken_down{};
-    localtime_r(&now, &broken_down);
-    std::array<char, 32> text{};
-    std::strftime(text.data(), text.size(), "%Y-%m-%d", &broken_down);
-    return text.data();
-}
-
-/// As Linux names it: proc(5), cpuinfo.
-std::string processor_name()
-{
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);)
-        if (line.starts_with("model name")) return line.substr(line.find(": ") + 2);
-    return "unknown processor";
-}
 
 trade::Json read_results(const std::string& path)
 {
@@ -149,13 +127,7 @@ void add_trade_command(CLI::App& program, Work& work)
     });
     command->callback([options, command, &work] {
         options->size_given = command->count("--size") > 0;
-        std::string line = "plumbline trade";
-        for (const CLI::Option* option : command->get_options()) {
-            if (option->count() == 0) continue;
-            if (!option->get_positional()) line += " " + option->get_name();
-            if (option->get_expected_max() == 0) continue; // a flag
-            for (const std::string& result : option->results()) line += " " + result;
-        }
+        const std::string line = command_line(*command);
         work = [options, line] { return trade_command(*options, line); };
     });
 }

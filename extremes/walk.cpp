@@ -6,7 +6,6 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
-#include <stdexcept>
 #include <thread>
 
 namespace extremes {
@@ -23,14 +22,6 @@ std::uint64_t mixed(std::uint64_t a, std::uint64_t b)
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
     z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
     return z ^ (z >> 31);
-}
-
-std::size_t index_of_ordinary(const Axis& axis)
-{
-    const auto found = std::ranges::find(axis.values, axis.ordinary);
-    if (found == axis.values.end())
-        throw std::logic_error("axis " + axis.name + ": its ordinary value is not one of its values");
-    return static_cast<std::size_t>(found - axis.values.begin());
 }
 
 } // namespace
@@ -78,26 +69,6 @@ std::optional<Tally> visit(const Axis& axis, const Method& method, double parame
     Tally sum;
     for (const Tally& tally : tallies) sum += tally;
     return sum;
-}
-
-std::optional<SafeRange> safe_range(const Axis& axis, const std::function<const Tally&(std::size_t)>& at)
-{
-    std::size_t first = index_of_ordinary(axis);
-    if (at(first).failures() > 0) return std::nullopt;
-    std::size_t last = first;
-    while (first > 0 && at(first - 1).failures() == 0) --first;
-    while (last + 1 < axis.values.size() && at(last + 1).failures() == 0) ++last;
-    return SafeRange{axis.values[first], axis.values[last]};
-}
-
-std::optional<double> first_failure(const Axis& axis, Failure kind, bool above,
-                                    const std::function<const Tally&(std::size_t)>& at)
-{
-    for (std::size_t i = index_of_ordinary(axis);;) {
-        if (at(i).failures(kind) > 0) return axis.values[i];
-        if (above ? i + 1 == axis.values.size() : i == 0) return std::nullopt;
-        above ? ++i : --i;
-    }
 }
 
 std::vector<double> powers_of_ten(double from, double to, double step)

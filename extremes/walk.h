@@ -23,17 +23,4 @@ struct WalkOptions {
 std::optional<Tally> visit(const Axis& axis, const Method& method, double parameter,
                            const WalkOptions& options);
 
-/// The parameters farthest from axis.ordinary on both sides, such that all values from axis.ordinary
-/// to there are free of failures. `at(i)` is the tally at axis.values[i].
-struct SafeRange {
-    double from, to;
-};
-std::optional<SafeRange> safe_range(const Axis& axis,
-                                    const std::function<const Tally&(std::size_t)>& at);
-
-/// The value nearest to axis.ordinary on one side (below it or above it) at which `kind` occurs; none if
-/// it occurs at no value on that side. The ordinary value itself belongs to both sides.
-std::optional<double> first_failure(const Axis& axis, Failure kind, bool above,
-                                    const std::function<const Tally&(std::size_t)>& at);
-
 } // namespace extremes

@@ -1,4 +1,5 @@
 #include "trade/page.h"
+#include "images/page_scripts.h"
 #include "images/page_template.h"
 #include "trade/page_parts.h" // made from the files in page/
 
@@ -24,12 +25,13 @@ std::string page(const nlohmann::ordered_json& results)
     const std::string name = scene_name(results);
     const std::string title =
         "Speed against accuracy" + (name.empty() ? "" : ": " + images::html_text(name));
+    const std::string scripts = images::page_scripts();
     const std::string data = images::script_data(
         results.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
     return images::fill(page_parts::html,
                         std::array<images::Mark, 9>{{{"@TITLE@", title},
                                                      {"@STYLE@", page_parts::style},
-                                                     {"@D3@", page_parts::d3},
+                                                     {"@SCRIPTS@", scripts},
                                                      {"@DATA@", data},
                                                      {"@BASICS@", page_parts::basics},
                                                      {"@LABELS@", page_parts::labels},

@@ -1,9 +1,10 @@
+#include "extremes/point.h"
 #include "extremes/walk.h"
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <stdexcept>
+#include <vector>
 
 namespace extremes {
 
@@ -71,17 +72,35 @@ TEST(Walk, StopsAndPassesExceptionsOn)
 TEST(Walk, FindsTheFirstFailureOnEachSide)
 {
     const Axis axis = simple_axis();
-    std::map<std::size_t, Tally> tallies;
-    for (std::size_t i = 0; i < axis.values.size(); ++i)
-        tallies[i] = *visit(axis, axis.methods[0], axis.values[i], {});
-    const auto at = [&](std::size_t i) -> const Tally& { return tallies.at(i); };
-    EXPECT_EQ(first_failure(axis, Failure::leaked, true, at), 100.0);
-    EXPECT_FALSE(first_failure(axis, Failure::leaked, false, at));
-    EXPECT_FALSE(first_failure(axis, Failure::missed, true, at));
-    const auto safe = safe_range(axis, at);
+    std::vector<Point> points;
+    for (const double parameter : axis.values)
+        points.push_back(point_of(parameter, *visit(axis, axis.methods[0], parameter, {})));
+    EXPECT_EQ(first_failure(axis, points, Failure::leaked, true), 100.0);
+    EXPECT_FALSE(first_failure(axis, points, Failure::leaked, false));
+    EXPECT_FALSE(first_failure(axis, points, Failure::missed, true));
+    points[0].failures[static_cast<std::size_t>(Failure::missed)] = 1;
+    points[1].failures[static_cast<std::size_t>(Failure::missed)] = 1;
+    EXPECT_EQ(first_failure(axis, points, Failure::missed, false), points[1].parameter);
+    const auto safe = safe_range(axis, points);
     ASSERT_TRUE(safe);
-    EXPECT_EQ(safe->from, axis.values.front());
+    EXPECT_EQ(safe->from, points[2].parameter);
     EXPECT_EQ(safe->to, 10.0);
+}
+
+TEST(Walk, PointsContradictALimit)
+{
+    const Axis axis = simple_axis();
+    std::vector<Point> points;
+    for (const double parameter : axis.values)
+        points.push_back(point_of(parameter, *visit(axis, axis.methods[0], parameter, {})));
+    Limit limit{"ref", 10.0, [](double) { return 1e-9; }, 100.0, Failure::leaked, ""};
+    EXPECT_EQ(contradiction(axis, limit, points), "");
+    limit.bound = [](double parameter) { return parameter > 5 ? 1e-12 : 1e-9; };
+    EXPECT_NE(contradiction(axis, limit, points).find("above the bound of 1e-12 at 10"),
+              std::string::npos);
+    limit.safe = 100.0;
+    limit.bound = [](double) { return 1e-9; };
+    EXPECT_EQ(contradiction(axis, limit, points), "1000 of 1000 cases fail at 100: leaked");
 }
 
 } // namespace extremes

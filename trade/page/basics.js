@@ -1,8 +1,5 @@
 "use strict";
-// What all parts of the page use: the data, numbers as text, elements, and the head of the page.
-const results = JSON.parse(document.getElementById("data").textContent);
-const byId = id => document.getElementById(id);
-const finite = x => typeof x === "number" && Number.isFinite(x);
+// What all parts of the page use: estimates, numbers with units, and the head of the page.
 
 // ---- estimates: { value, low, high }, or null
 const estimate = e => e && finite(e.value) ? { value: e.value, low: finite(e.low) ? e.low : e.value, high: finite(e.high) ? e.high : e.value } : null;
@@ -37,17 +34,6 @@ function errorAfter(c, seconds) { // relMSE after this time, build included; inf
 }
 
 // ---- numbers as text
-const minus = text => text.replace("-", "−");
-const raised = n => String(n).replace(/./g, c => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻");
-const none = "–";
-function number(x, digits = 3) {
-  if (!finite(x)) return none;
-  if (x === 0) return "0";
-  const rounded = Number(x.toPrecision(digits));
-  const exponent = Math.floor(Math.log10(Math.abs(rounded)));
-  if (exponent < -3 || exponent > 5) return minus((rounded / 10 ** exponent).toFixed(digits - 1)) + "\u00a0×\u00a010" + raised(exponent);
-  return minus(rounded.toFixed(Math.max(0, digits - 1 - exponent)));
-}
 function withUnit(x, units) { // the largest unit that leaves at least 1
   if (!finite(x)) return none;
   const [factor, unit] = units.find(([f]) => Math.abs(x) >= f * 0.9995) ?? units[units.length - 1];
@@ -68,12 +54,6 @@ const range = (e, say) => `${say(e.low)} to ${say(e.high)}`;
 const withRange = (e, say) => estimate(e) ? `${say(e.value)} (${range(estimate(e), say)})` : none;
 
 // ---- elements
-function element(name, attributes = {}, ...content) {
-  const e = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
-  e.append(...content);
-  return e;
-}
 const d3Symbol = { unbiased: "circle", biased: "diamond", undecided: "square" };
 function addMark(parent, kind, size = 1) { // at the origin of `parent`; hollow diamonds are biased
   const area = { unbiased: 95, biased: 92, undecided: 88 }[kind] * size;

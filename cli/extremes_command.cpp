@@ -1,0 +1,202 @@
+// `plumbline extremes`: how far each algorithm and number format can go.
+
+#include "cli/extremes_command.h"
+
+#include "cli/interrupt.h"
+#include "cli/machine.h"
+#include "cli/progress.h"
+#include "extremes/page.h"
+#include "extremes/results.h"
+#include "extremes/walk.h"
+#include "images/atomic_file.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+namespace cli {
+
+namespace {
+
+using extremes::Axis;
+using extremes::WalkedAxis;
+
+/// The methods of all axes that `names` lists; all if it lists none.
+std::vector<WalkedAxis::Of> chosen_methods(const Axis& axis, const std::vector<std::string>& names)
+{
+    std::vector<WalkedAxis::Of> chosen;
+    for (const extremes::Method& method : axis.methods)
+        if (names.empty() || std::ranges::find(names, method.name) != names.end())
+            chosen.push_back({method, {}});
+    return chosen;
+}
+
+/// The axes and methods that the options name. Throws std::invalid_argument for a name that does not
+/// exist.
+std::vector<WalkedAxis> chosen_axes(const ExtremesCommand& options)
+{
+    const std::vector<Axis> all = extremes::all_axes();
+    const auto is_named = [](const Axis& axis, const std::string& name) {
+        return axis.name == name || std::to_string(axis.number) == name;
+    };
+    for (const std::string& name : options.axes)
+        if (std::ranges::none_of(all, [&](const Axis& axis) { return is_named(axis, name); }))
+            throw std::invalid_argument(name + ": no such axis (--list lists them)");
+    for (const std::string& name : options.methods)
+        if (std::ranges::none_of(all, [&](const Axis& axis) {
+                return std::ranges::find(axis.methods, name, &extremes::Method::name) !=
+                       axis.methods.end();
+            }))
+            throw std::invalid_argument(name + ": no such method (--list lists them)");
+    std::vector<WalkedAxis> chosen;
+    for (const Axis& axis : all) {
+        const bool wanted =
+            options.axes.empty() || std::ranges::any_of(options.axes, [&](const std::string& name) {
+                return is_named(axis, name);
+            });
+        if (!wanted) continue;
+        chosen.push_back({axis, chosen_methods(axis, options.methods)});
+        if (chosen.back().methods.empty()) chosen.pop_back();
+    }
+    if (chosen.empty())
+        throw std::invalid_argument("none of these axes has one of these methods (--list lists them)");
+    return chosen;
+}
+
+void print_list(const std::vector<WalkedAxis>& axes)
+{
+    for (const WalkedAxis& of : axes) {
+        std::cout << of.axis.number << ' ' << of.axis.name << ": " << of.axis.title << " ("
+                  << of.axis.parameter << ")\n    ";
+        for (std::size_t i = 0; i < of.methods.size(); ++i)
+            std::cout << (i > 0 ? ", " : "") << of.methods[i].method.name;
+        std::cout << '\n';
+    }
+}
+
+void restore(const ExtremesCommand& options, const extremes::Description& description,
+             std::vector<WalkedAxis>& walked)
+{
+    if (!options.resume || !std::filesystem::exists(options.output)) return;
+    try {
+        const auto json = extremes::Json::parse(images::read_file(options.output), nullptr, false);
+        if (json.is_discarded()) throw std::invalid_argument("it is no JSON");
+        extremes::restore(json, description, walked);
+    } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument("--resume " + options.output + ": " + error.what());
+    }
+}
+
+/// The points that are missing: axis, method and parameter.
+struct Missing {
+    WalkedAxis* axis;
+    WalkedAxis::Of* of;
+    double parameter;
+};
+
+std::vector<Missing> missing_points(std::vector<WalkedAxis>& walked)
+{
+    std::vector<Missing> missing;
+    for (WalkedAxis& axis : walked)
+        for (WalkedAxis::Of& of : axis.methods)
+            for (const double parameter : axis.axis.values)
+                if (std::ranges::find(of.points, parameter, &extremes::Point::parameter) ==
+                    of.points.end())
+                    missing.push_back({&axis, &of, parameter});
+    return missing;
+}
+
+std::size_t all_points(const std::vector<WalkedAxis>& walked)
+{
+    std::size_t count = 0;
+    for (const WalkedAxis& axis : walked) count += axis.methods.size() * axis.axis.values.size();
+    return count;
+}
+
+ExitStatus extremes_command(const ExtremesCommand& options, const std::string& command)
+{
+    check(options);
+    std::vector<WalkedAxis> walked = chosen_axes(options);
+    if (options.list) {
+        print_list(walked);
+        return fine;
+    }
+    catch_interrupts();
+    extremes::Description description{PLUMBLINE_VERSION, command,      today(), processor_name(),
+                                      options.cases,     options.seed, false};
+    restore(options, description, walked);
+
+    extremes::WalkOptions walk;
+    walk.cases = options.cases;
+    walk.seed = options.seed;
+    walk.threads =
+        options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+    walk.stop = interrupt_requested;
+    const auto keep = [&] {
+        if (!options.output.empty())
+            images::write_atomically(options.output,
+                                     extremes::results(description, walked).dump(1) + "\n");
+    };
+    const std::vector<Missing> missing = missing_points(walked);
+    const std::size_t total = all_points(walked);
+    std::size_t done = total - missing.size();
+    bool stopped = false;
+    {
+        Progress progress("extremes", static_cast<double>(done), static_cast<double>(total),
+                          options.quiet);
+        auto kept = std::chrono::steady_clock::now();
+        for (const Missing& point : missing) {
+            const auto tally =
+                extremes::visit(point.axis->axis, point.of->method, point.parameter, walk);
+            stopped = !tally;
+            if (stopped) break;
+            auto& points = point.of->points;
+            points.push_back(extremes::point_of(point.parameter, *tally));
+            std::ranges::sort(points, {}, &extremes::Point::parameter);
+            progress.update(static_cast<double>(++done));
+            if (std::chrono::steady_clock::now() - kept < std::chrono::seconds(10)) continue;
+            keep(); // for a power cut
+            kept = std::chrono::steady_clock::now();
+        }
+    }
+    description.complete = !stopped;
+    keep();
+    const extremes::Json found = extremes::results(description, walked);
+    if (!options.report.empty()) images::write_atomically(options.report, extremes::page(found));
+    std::cout << (options.json ? found.dump() + "\n" : extremes::table(found)) << std::flush;
+    if (stopped) {
+        std::cerr << "plumbline: interrupted: "
+                  << (options.output.empty() ? "with -o, --resume would go on from here"
+                                             : "--resume goes on from here")
+                  << '\n';
+        return interrupted;
+    }
+    const std::vector<std::string> wrong = extremes::contradictions(walked);
+    for (const std::string& line : wrong)
+        std::cerr << "plumbline: a limit does not hold: " << line << '\n';
+    return wrong.empty() ? fine : check_failed;
+}
+
+} // namespace
+
+void add_extremes_command(CLI::App& program, Work& work)
+{
+    const auto options = std::make_shared<ExtremesCommand>();
+    CLI::App* command =
+        program.add_subcommand("extremes", "Walk to where each algorithm and number format breaks");
+    add_extremes_options(*command, *options);
+    command->footer("Example: plumbline extremes distance gap --report extremes.html\n"
+                    "Exit status 1: a stated limit does not hold.");
+    command->callback([options, command, &work] {
+        work = [options, line = command_line(*command)] { return extremes_command(*options, line); };
+    });
+}
+
+} // namespace cli

@@ -1,0 +1,57 @@
+#pragma once
+
+// A walk as data: the JSON that `plumbline extremes` writes, and from which its page is made.
+// docs/extremes.md describes the format.
+
+#include "extremes/axis.h"
+#include "extremes/point.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace extremes {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* results_format = "plumbline extremes 1";
+
+/// Where and how a walk was made.
+struct Description {
+    std::string program;   // version
+    std::string command;   // command line
+    std::string date;      // of its end, "2026-11-27"
+    std::string processor; // name
+    int cases = 0;         // per point
+    std::uint64_t seed = 0;
+    bool complete = true; // not interrupted
+};
+
+/// An axis and the points of those of its methods that were chosen, in increasing order of the
+/// parameter. Points that are not yet visited are missing.
+struct WalkedAxis {
+    struct Of {
+        Method method;
+        std::vector<Point> points;
+    };
+    Axis axis;
+    std::vector<Of> methods;
+};
+
+/// All numbers.
+Json results(const Description& description, const std::vector<WalkedAxis>& walked);
+
+/// The limits that points contradict, one line each: "distance, host: ...".
+std::vector<std::string> contradictions(const std::vector<WalkedAxis>& walked);
+
+/// Fills in the points of earlier results. Throws std::invalid_argument, with the reason, if `json` is
+/// no such results, or if version, cases or seed differ. Axes, methods and parameters that `walked` does
+/// not have are left out.
+void restore(const Json& json, const Description& description, std::vector<WalkedAxis>& walked);
+
+/// Errors, first failures and limits as a table in plain text.
+std::string table(const Json& results);
+
+} // namespace extremes
