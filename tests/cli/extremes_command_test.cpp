@@ -1,0 +1,107 @@
+// `plumbline extremes` walks the axes that it is told, keeps what it has done, and refuses bad input in
+// one line.
+
+#include "tests/cli/run_program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace {
+
+using namespace cli_test;
+
+TEST(ExtremesCommand, WritesResultsAndAPageAndPrintsATable)
+{
+    TemporaryFolder folder;
+    const std::string json = (folder / "e.json").string();
+    const std::string page = (folder / "e.html").string();
+    const Outcome outcome = run(
+        {"extremes", "ior", "--cases", "50", "-o", json, "--report", page, "--methods", "ref", "host"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("first failures"), std::string::npos);
+    const auto results = nlohmann::json::parse(read_bytes(json));
+    EXPECT_EQ(results.at("format"), "plumbline extremes 1");
+    EXPECT_TRUE(results.at("complete"));
+    ASSERT_EQ(results.at("axes").size(), 1U);
+    EXPECT_EQ(results.at("axes").at(0).at("methods").size(), 2U);
+    EXPECT_NE(read_bytes(page).find("<title>The extremes"), std::string::npos);
+
+    const Outcome printed = run({"extremes", "ior", "--cases", "50", "--json", "-t", "1"});
+    ASSERT_EQ(printed.status, 0) << printed.err;
+    const auto again = nlohmann::json::parse(printed.out);
+    EXPECT_EQ(again.at("axes").at(0).at("methods").at(0), results.at("axes").at(0).at("methods").at(0));
+}
+
+TEST(ExtremesCommand, AnAxisHasANameAndANumber)
+{
+    const Outcome by_number = run({"extremes", "8", "--list"});
+    EXPECT_EQ(by_number.status, 0);
+    EXPECT_NE(by_number.out.find("ior"), std::string::npos);
+    EXPECT_EQ(by_number.out.find("gap"), std::string::npos);
+    const Outcome all = run({"extremes", "--list"});
+    EXPECT_NE(all.out.find("ior"), std::string::npos);
+}
+
+TEST(ExtremesCommand, KeepsWhatItHasDoneAndGoesOn)
+{
+    TemporaryFolder folder;
+    const std::string json = (folder / "e.json").string();
+    const std::string whole = (folder / "whole.json").string();
+    const Arguments walk = {"extremes", "ior", "--methods", "ref", "--cases", "20000"};
+    Process process(walk + Arguments{"-o", json});
+    ASSERT_TRUE(eventually([&] { return process.catches(SIGINT); }));
+    process.send(SIGINT);
+    const Outcome stopped = process.finish();
+    EXPECT_EQ(stopped.status, 130) << stopped.err;
+    EXPECT_NE(stopped.err.find("--resume goes on from here"), std::string::npos) << stopped.err;
+    EXPECT_FALSE(nlohmann::json::parse(read_bytes(json)).at("complete"));
+
+    ASSERT_EQ(run(walk + Arguments{"-o", json, "--resume"}).status, 0);
+    ASSERT_EQ(run(walk + Arguments{"-o", whole}).status, 0);
+    EXPECT_EQ(nlohmann::json::parse(read_bytes(json)).at("axes"),
+              nlohmann::json::parse(read_bytes(whole)).at("axes"));
+}
+
+struct BadExtremes {
+    const char* name;
+    Arguments more;
+    const char* message; // a part of it
+};
+
+class ExtremesRefuses : public testing::TestWithParam<BadExtremes> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    BadInput, ExtremesRefuses,
+    testing::Values(BadExtremes{"UnknownAxis", {"depth-of-field"}, "no such axis"},
+                    BadExtremes{"UnknownMethod", {"--methods", "magic"}, "no such method"},
+                    BadExtremes{"NoCases", {"--cases", "0"}, "--cases"},
+                    BadExtremes{"NoWord", {"--cases", "many"}, "--cases"},
+                    BadExtremes{"UnwritableReport", {"--report", "/no/such/folder/e.html"}, "/no/such"},
+                    BadExtremes{"UnwritableResults", {"-o", "/no/such/folder/e.json"}, "/no/such"},
+                    BadExtremes{"ReportByAnotherName", {"--report", "e.txt"}, ".html"},
+                    BadExtremes{"ResumeOfNothing", {"--resume"}, "--resume needs -o"}),
+    [](const auto& bad) { return bad.param.name; });
+
+TEST_P(ExtremesRefuses, InOneLineAndWritesNothing)
+{
+    const Outcome outcome = run(Arguments{"extremes"} + GetParam().more);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(GetParam().message), std::string::npos) << outcome.err;
+}
+
+TEST(ExtremesCommand, RefusesResultsOfSomethingElse)
+{
+    TemporaryFolder folder;
+    const std::string json = (folder / "e.json").string();
+    write_bytes(json, "{\"format\": \"plumbline trade 1\"}");
+    const Outcome outcome = run({"extremes", "ior", "-o", json, "--resume"});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find("its format is another one"), std::string::npos) << outcome.err;
+    EXPECT_EQ(read_bytes(json), "{\"format\": \"plumbline trade 1\"}");
+}
+
+} // namespace
