@@ -170,7 +170,10 @@ ExitStatus extremes_command(const ExtremesCommand& options, const std::string& c
     keep();
     const extremes::Json found = extremes::results(description, walked);
     if (!options.report.empty()) images::write_atomically(options.report, extremes::page(found));
-    std::cout << (options.json ? found.dump() + "\n" : extremes::table(found)) << std::flush;
+    std::cout << (options.json       ? found.dump() + "\n"
+                  : options.markdown ? extremes::markdown(found)
+                                     : extremes::table(found))
+              << std::flush;
     if (stopped) {
         std::cerr << "plumbline: interrupted: "
                   << (options.output.empty() ? "with -o, --resume would go on from here"

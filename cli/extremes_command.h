@@ -21,6 +21,7 @@ struct ExtremesCommand {
     std::string report;   // .html
     bool resume = false;
     bool json = false;
+    bool markdown = false;
     bool quiet = false;
 };
 

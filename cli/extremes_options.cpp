@@ -29,6 +29,8 @@ void add_extremes_options(CLI::App& command, ExtremesCommand& options)
     command.add_option("--report", options.report, "Page for people, without other files: .html");
     command.add_flag("--resume", options.resume, "Go on with the points in the output");
     command.add_flag("--json", options.json, "Print the results as JSON and not as a table");
+    command.add_flag("--markdown", options.markdown, "Print the results as a part of docs/extremes.md")
+        ->excludes("--json");
     command.add_flag("-q,--quiet", options.quiet, "No progress");
 }
 

@@ -46,8 +46,9 @@ struct Axis {
     bool logarithmic;  // how to draw it, and how to draw random values
     std::vector<double> values; // in increasing order; `ordinary` is one of them
     std::vector<Method> methods;
-    std::vector<Limit> limits;  // of methods by their names, at most two of each: below and above
-    int most_cases = 1'000'000; // where a case is large: at each point no more than this
+    std::vector<Limit> limits;   // of methods by their names, at most two of each: below and above
+    int most_cases = 1'000'000;  // where a case is large: at each point no more than this
+    std::string derivation = {}; // of the bounds: a paragraph for docs/extremes.md
 };
 
 /// 10^from, ..., 10^to in equal steps of the exponent; both ends are included.

@@ -88,9 +88,11 @@ const WalkedAxis::Of* method_of(const WalkedAxis& walked, const std::string& nam
 Json json_of(const WalkedAxis& walked)
 {
     const Axis& axis = walked.axis;
-    Json json = {{"number", axis.number},           {"name", axis.name},     {"title", axis.title},
-                 {"parameter", axis.parameter},     {"about", axis.about},   {"ordinary", axis.ordinary},
-                 {"logarithmic", axis.logarithmic}, {"values", axis.values}, {"methods", Json::array()},
+    Json json = {{"number", axis.number},     {"name", axis.name},
+                 {"title", axis.title},       {"parameter", axis.parameter},
+                 {"about", axis.about},       {"derivation", axis.derivation},
+                 {"ordinary", axis.ordinary}, {"logarithmic", axis.logarithmic},
+                 {"values", axis.values},     {"methods", Json::array()},
                  {"limits", Json::array()}};
     for (const WalkedAxis::Of& of : walked.methods) json["methods"].push_back(json_of(axis, of));
     for (const Limit& limit : axis.limits)

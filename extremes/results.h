@@ -54,4 +54,13 @@ void restore(const Json& json, const Description& description, std::vector<Walke
 /// Errors, first failures and limits as a table in plain text.
 std::string table(const Json& results);
 
+/// The limits as a table in Markdown: a row for each limit of each axis. It does not depend on the
+/// points.
+std::string limits_in_markdown(const Json& results);
+
+/// The part of docs/extremes.md that the program writes: the table of limits, and a section for each
+/// axis with its picture (images/extremes_NAME.png), its limits, their derivation, and the first
+/// failures of all methods.
+std::string markdown(const Json& results);
+
 } // namespace extremes

@@ -1,4 +1,4 @@
-// The results as a table in plain text.
+// The results as text: a table for the terminal, and Markdown for the documentation.
 
 #include "extremes/results.h"
 
@@ -19,7 +19,7 @@ std::string three_digits(double x)
     return text.data();
 }
 
-/// "leaked from 1e6 on; refused below 1e-9"
+/// "leaked at 1e6; refused at 1e-9"
 std::string first_failures_of(const Json& method, double ordinary)
 {
     std::string text;
@@ -52,6 +52,13 @@ Line line_of(const Json& axis, const Json& method)
             first_failures_of(method, ordinary)};
 }
 
+/// "up to 1e6" or "down to 1e-9"
+std::string safe_words(const Json& axis, const Json& limit)
+{
+    const double safe = limit.at("safe");
+    return (safe < axis.at("ordinary").get<double>() ? "down to " : "up to ") + three_digits(safe);
+}
+
 std::string aligned(const std::vector<Line>& lines)
 {
     std::string text;
@@ -82,16 +89,71 @@ std::string table(const Json& results)
         for (const Json& method : axis.at("methods")) lines.push_back(line_of(axis, method));
         text += aligned(lines);
         for (const Json& limit : axis.at("limits")) {
-            const bool below = limit.at("safe").get<double>() < axis.at("ordinary").get<double>();
-            text += "  " + limit.at("method").get<std::string>() +
-                    (below ? " is safe down to " : " is safe up to ") +
-                    three_digits(limit.at("safe").get<double>()) + ", because " +
-                    limit.at("because").get<std::string>() + '\n';
+            text += "  " + limit.at("method").get<std::string>() + " is safe " +
+                    safe_words(axis, limit) + ", because " + limit.at("because").get<std::string>() +
+                    '\n';
             if (const std::string why = limit.at("contradiction"); !why.empty())
                 text += "  CONTRADICTED: " + why + '\n';
         }
         text += '\n';
     }
+    return text;
+}
+
+namespace {
+
+/// The largest bound along the way from the ordinary value to the limit.
+std::string largest_bound(const Json& limit)
+{
+    double largest = 0.0;
+    for (const Json& point : limit.at("bound")) largest = std::max(largest, point.at(1).get<double>());
+    return three_digits(largest);
+}
+
+std::string section(const Json& axis)
+{
+    const std::string axis_name = axis.at("name");
+    std::string text = "## " + std::to_string(axis.at("number").get<int>()) + ". " +
+                       axis.at("title").get<std::string>() + " (`" + axis_name + "`)\n\n" +
+                       axis.at("about").get<std::string>() +
+                       "\n\n![Errors and failures: " + axis.at("title").get<std::string>() +
+                       "](images/extremes_" + axis_name + ".png)\n\n";
+    for (const Json& limit : axis.at("limits"))
+        text += "- **" + limit.at("method").get<std::string>() + "** is safe " +
+                safe_words(axis, limit) + ", because " + limit.at("because").get<std::string>() + "\n";
+    if (!axis.at("limits").empty()) text += "\n";
+    if (const std::string derivation = axis.at("derivation"); !derivation.empty())
+        text += "Derivation: " + derivation + "\n\n";
+    text += "| method | median error at " + three_digits(axis.at("ordinary").get<double>()) +
+            " | largest | no failure in | first failures |\n|---|---|---|---|---|\n";
+    for (const Json& method : axis.at("methods")) {
+        std::string row = "|";
+        for (const std::string& cell : line_of(axis, method))
+            row += " " + cell.substr(std::min(cell.find_first_not_of(' '), cell.size())) + " |";
+        text += row + "\n";
+    }
+    return text + "\n";
+}
+
+} // namespace
+
+std::string limits_in_markdown(const Json& results)
+{
+    std::string text = "| axis | method | safe | largest bound on the error | what fails beyond |\n"
+                       "|---|---|---|---|---|\n";
+    for (const Json& axis : results.at("axes"))
+        for (const Json& limit : axis.at("limits"))
+            text += "| " + axis.at("name").get<std::string>() + " | " +
+                    limit.at("method").get<std::string>() + " | " + safe_words(axis, limit) + " | " +
+                    largest_bound(limit) + " | " + limit.at("failure").get<std::string>() + " at " +
+                    three_digits(limit.at("beyond").get<double>()) + " |\n";
+    return text;
+}
+
+std::string markdown(const Json& results)
+{
+    std::string text = limits_in_markdown(results) + "\n";
+    for (const Json& axis : results.at("axes")) text += section(axis);
     return text;
 }
 
