@@ -1,0 +1,15 @@
+#include "cuda/launch/ray_pairs.h"
+
+#include "cuda/launch/run_ray_pairs.h"
+#include "cuda/parallel/executor.h"
+
+namespace fast {
+
+std::vector<PairOfHits> trace_ray_pairs(const SceneArrays& arrays, std::span<const RayPair> pairs)
+{
+    HostMemory memory;
+    SerialExecutor executor;
+    return run_ray_pairs(memory, executor, arrays, pairs);
+}
+
+} // namespace fast
