@@ -37,9 +37,9 @@ struct Finding {
     Interval interval;      // of the ratio
     double detectable;      // smallest relative error found with the stated power; NaN if not defined
     Reach reach = {};       // of the whole picture, by t tests
-    /// By t tests: all batches are equal and too dark. Either light is missing, or no batch has an event
-    /// that is rare for this estimator; the sample variance is 0 in both cases.
-    bool darker_without_noise = false;
+    /// By t tests: too dark. Either light is missing, or the batches have fewer of the rare events of
+    /// this estimator than usual; then their variance and skewness are too small as well.
+    bool darker_by_means = false;
 };
 
 /// "green of tile x 16..31, y 0..15 (matched)"

@@ -46,8 +46,7 @@ Finding Judge::judge(const std::vector<Row>& rows, std::size_t functional, std::
         if (may_lack_rare_events(candidate, reference, *std::max_element(theirs.begin(), theirs.end()),
                                  options_.certainty_level))
             finding.conclusive = false;
-        const bool alike = std::ranges::adjacent_find(ours, std::ranges::not_equal_to()) == ours.end();
-        finding.darker_without_noise = alike && reference.variance > 0.0 && finding.test.z < 0.0;
+        finding.darker_by_means = reference.variance > 0.0 && finding.test.z < 0.0;
     }
     if (candidate.count >= 2.0 && reference.count >= 2.0)
         finish(finding, mean_estimate(candidate), mean_estimate(reference));

@@ -154,7 +154,7 @@ bool decide_at_once(Comparison& comparison, const CompareOptions& options, bool 
     }
     const auto certain = [&](const Finding& finding) {
         return finding.conclusive && finding.adjusted_p < options.certainty_level &&
-               !(can_render_again && finding.darker_without_noise);
+               !(can_render_again && finding.darker_by_means);
     };
     if (std::ranges::any_of(comparison.findings, certain)) {
         fail(comparison, below_certainty_level(options));

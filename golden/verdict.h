@@ -25,8 +25,8 @@ void pass_or_inconclusive(Comparison& comparison, const CompareOptions& options,
 void fail(Comparison& comparison, const std::string& how);
 
 /// Sets the verdict if the first stage is enough for one; false if the suspicion needs another stage.
-/// `can_render_again`: another stage is possible. Then a finding that is darker_without_noise is not
-/// enough for FAIL.
+/// `can_render_again`: another stage is possible. Then a finding that is darker_by_means is not enough
+/// for FAIL.
 bool decide_at_once(Comparison& comparison, const CompareOptions& options,
                     bool can_render_again = false);
 
