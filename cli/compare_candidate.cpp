@@ -3,6 +3,7 @@
 #include "cli/compare_scene.h"
 #include "cli/render_metadata.h"
 #include "golden/compare.h"
+#include "golden/diagnosis.h"
 #include "golden/independence.h"
 #include "golden/reason.h"
 #include "images/file_ending.h"
@@ -134,7 +135,11 @@ JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<s
                                         seed + ": they are not independent");
     }
     expect_independent_pictures(golden, pictures, files);
-    golden::Comparison comparison = golden::compare_pictures(golden, pictures);
+    const auto compared = [&](const std::vector<images::Image>& of) {
+        return golden::compare_pictures(golden, of);
+    };
+    golden::Comparison comparison = compared(pictures);
+    comparison.diagnosis = golden::diagnose(golden, comparison, pictures, 0.0, compared);
     images::Film film(golden.mean.width, golden.mean.height);
     for (const images::Image& picture : pictures) film.add_batch(picture);
     return {std::move(comparison), film.mean(), std::move(first.metadata), std::move(first.layers)};
@@ -150,8 +155,12 @@ JudgedCandidate judge_picture(const golden::Golden& golden, const std::string& f
                                     " is one batch: give its samples by -s");
     const double samples = samples_of(file, picture.metadata, options);
     golden::Comparison comparison;
+    const auto compared = [&](const std::vector<images::Image>& of) {
+        return golden::compare_picture(golden, of.front(), samples);
+    };
     try {
-        comparison = golden::compare_picture(golden, picture.mean, samples);
+        comparison = compared({picture.mean});
+        comparison.diagnosis = golden::diagnose(golden, comparison, {picture.mean}, samples, compared);
     } catch (const std::invalid_argument& error) {
         throw images::ImageError(file, error.what());
     }

@@ -35,7 +35,8 @@ struct Shortfall {
 
 struct Comparison {
     Verdict verdict = Verdict::inconclusive;
-    std::string reason; // one or two sentences
+    std::string reason;    // one or two sentences
+    std::string diagnosis; // what is wrong with the picture (diagnosis.h); empty if that is not known
     Method method = Method::ranks;
     double p = 1.0; // the smallest adjusted p of the first stage
     std::vector<Finding> findings;

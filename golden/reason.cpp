@@ -150,10 +150,11 @@ std::string say_possible_causes(const Comparison& comparison, const Golden& gold
                                 const images::Metadata& candidate, const images::Image& mean)
 {
     if (comparison.verdict == Verdict::pass || !comparison.suspicion) return "";
-    std::string text;
-    if (2.0 * distance(mean, upside_down(golden.mean)) < distance(mean, golden.mean))
+    const bool diagnosed = !comparison.diagnosis.empty();
+    if (!diagnosed && 2.0 * distance(mean, upside_down(golden.mean)) < distance(mean, golden.mean))
         return " The picture agrees better with the golden upside down: its first row should be the "
                "top.";
+    std::string text = diagnosed ? " " + comparison.diagnosis : "";
     const Finding& suspicion = comparison.findings[*comparison.suspicion];
     const Finding& whole = whole_picture(comparison, suspicion.channel);
     const auto edges = golden.metadata.find("max_edges");
@@ -162,7 +163,7 @@ std::string say_possible_causes(const Comparison& comparison, const Golden& gold
                 " edges, the camera's counted: a picture that is brighter nearly everywhere may have "
                 "longer ones.";
     constexpr double black = 0.01;
-    if (whole.ratio > black && is_scaled(comparison, whole))
+    if (!diagnosed && whole.ratio > black && is_scaled(comparison, whole))
         text += " It differs by nearly the same factor everywhere, as by another exposure or unit.";
     return text;
 }

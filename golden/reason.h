@@ -32,9 +32,9 @@ std::string say_golden_limit(const Comparison& comparison);
 /// Sets the reason: the odd pixels, then `text`.
 void give_reason(Comparison& comparison, const std::string& text);
 
-/// Possible causes of a difference, for a picture that fails or is suspected: sentences to append to the
-/// reason, each with a space before it, or nothing. `candidate` are the picture's metadata, `mean` the
-/// picture.
+/// The diagnosis, and other possible causes of a difference, for a picture that fails or is suspected:
+/// sentences to append to the reason, each with a space before it, or nothing. `candidate` are the
+/// picture's metadata, `mean` the picture.
 std::string say_possible_causes(const Comparison& comparison, const Golden& golden,
                                 const images::Metadata& candidate, const images::Image& mean);
 

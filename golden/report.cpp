@@ -117,14 +117,20 @@ Json needed_by(const Comparison& comparison)
 Json numbers_of(const Report& report)
 {
     const Comparison& comparison = report.comparison;
-    Json json = {
-        {"verdict", describe(comparison.verdict)}, {"reason", comparison.reason},
-        {"method", describe(comparison.method)},   {"p", comparison.p},
-        {"coverage", comparison.coverage},         {"detectable", comparison.detectable},
-        {"golden_limit", comparison.golden_limit}, {"golden_batches", comparison.golden_batches},
-        {"summary", summary_of(comparison)},       {"width", report.golden.mean.width},
-        {"height", report.golden.mean.height},     {"golden", report.golden.metadata},
-        {"candidate", report.candidate_metadata}};
+    Json json = {{"verdict", describe(comparison.verdict)},
+                 {"reason", comparison.reason},
+                 {"diagnosis", comparison.diagnosis},
+                 {"method", describe(comparison.method)},
+                 {"p", comparison.p},
+                 {"coverage", comparison.coverage},
+                 {"detectable", comparison.detectable},
+                 {"golden_limit", comparison.golden_limit},
+                 {"golden_batches", comparison.golden_batches},
+                 {"summary", summary_of(comparison)},
+                 {"width", report.golden.mean.width},
+                 {"height", report.golden.mean.height},
+                 {"golden", report.golden.metadata},
+                 {"candidate", report.candidate_metadata}};
     if (comparison.noise_ratio) json["noise_ratio"] = *comparison.noise_ratio;
     if (comparison.noise_error) json["noise_error"] = *comparison.noise_error;
     if (comparison.shortfall) json["needed"] = needed_by(comparison);

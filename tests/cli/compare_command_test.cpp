@@ -104,6 +104,18 @@ TEST_F(CompareCommand, ADimmerPictureFails)
     EXPECT_EQ(outcome.out.rfind("FAIL", 0), 0u) << outcome.out;
 }
 
+TEST_F(CompareCommand, NamesAConstantFactor)
+{
+    render(candidate);
+    const Outcome outcome = compare({altered(1 / 3.14159265358979)}, {"-s", "512"});
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_NE(outcome.out.find("Your picture is 0.3183 = 1/pi times the golden everywhere"),
+              std::string::npos)
+        << outcome.out;
+    const Outcome json = compare({altered(1.0)}, {"-s", "512", "--json"});
+    EXPECT_EQ(nlohmann::json::parse(json.out).at("diagnosis"), "") << json.out;
+}
+
 TEST_F(CompareCommand, AnyCaseOfAnEndingWillDo)
 {
     candidate = (folder / "CANDIDATE.EXR").string();
