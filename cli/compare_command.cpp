@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -39,6 +40,28 @@ ExitStatus status_of(golden::Verdict verdict)
     throw std::logic_error("no such verdict");
 }
 
+/// "9.87%", "none" for infinity (no error is detectable), "-" for NaN (the golden is black).
+std::string percent_text(double share)
+{
+    if (std::isnan(share)) return "-";
+    if (std::isinf(share)) return "none";
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2f%%", 100.0 * share);
+    return text.data();
+}
+
+/// A row of the table of the whole picture: ratio and interval, or "-" where the golden is black.
+void print_whole(const golden::Finding& whole, const char* channel, double detectable)
+{
+    if (std::isfinite(whole.ratio) && std::isfinite(whole.interval.low) &&
+        std::isfinite(whole.interval.high))
+        std::printf("  %-12s %12.3f%%   %8.3f%% .. %8.3f%%   %12s\n", channel, 100.0 * whole.ratio,
+                    100.0 * whole.interval.low, 100.0 * whole.interval.high,
+                    percent_text(detectable).c_str());
+    else
+        std::printf("  %-12s %13s   %22s   %12s\n", channel, "-", "-", percent_text(detectable).c_str());
+}
+
 void print_screen(const golden::Comparison& comparison)
 {
     std::printf("%s  %s\n\n", describe(comparison.verdict).c_str(), comparison.reason.c_str());
@@ -52,12 +75,8 @@ void print_screen(const golden::Comparison& comparison)
     if (const std::string limit = say_golden_limit(comparison); !limit.empty())
         std::printf("golden      %s\n", limit.c_str());
     std::printf("\nwhole picture  candidate/golden     99%% interval           detectable\n");
-    for (std::size_t c = 0; c < golden::channel_count; ++c) {
-        const golden::Finding& whole = whole_picture(comparison, c);
-        std::printf("  %-12s %12.3f%%   %8.3f%% .. %8.3f%%   %12.2f%%\n", golden::channel_names[c],
-                    100.0 * whole.ratio, 100.0 * whole.interval.low, 100.0 * whole.interval.high,
-                    100.0 * comparison.detectable[c]);
-    }
+    for (std::size_t c = 0; c < golden::channel_count; ++c)
+        print_whole(whole_picture(comparison, c), golden::channel_names[c], comparison.detectable[c]);
     std::vector<const golden::Finding*> worst;
     for (const golden::Finding& finding : comparison.findings)
         if (finding.conclusive) worst.push_back(&finding);
@@ -66,8 +85,8 @@ void print_screen(const golden::Comparison& comparison)
                       [](const auto* a, const auto* b) { return a->test.p < b->test.p; });
     std::printf("\nmost significant\n");
     for (std::size_t i = 0; i < shown; ++i)
-        std::printf("  z %+6.2f  p %8.2g (adjusted %8.2g)  ratio %8.2f%%  %s\n", worst[i]->test.z,
-                    worst[i]->test.p, worst[i]->adjusted_p, 100.0 * worst[i]->ratio,
+        std::printf("  z %+6.2f  p %8.2g (adjusted %8.2g)  ratio %9s  %s\n", worst[i]->test.z,
+                    worst[i]->test.p, worst[i]->adjusted_p, percent_text(worst[i]->ratio).c_str(),
                     describe(*worst[i]).c_str());
     if (comparison.least_sensitive_stratum) {
         const golden::Finding& least_sensitive =

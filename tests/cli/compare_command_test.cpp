@@ -143,6 +143,15 @@ TEST_F(CompareCommand, TooFewSamplesAreInconclusive)
     EXPECT_EQ(outcome.out.rfind("INCONCLUSIVE", 0), 0u) << outcome.out;
 }
 
+TEST_F(CompareCommand, NumbersThatDoNotExistAreWords)
+{
+    render(candidate);
+    const Outcome outcome = compare({altered(1.125)}, {"-s", "8"});
+    EXPECT_NE(outcome.out.find("  none\n"), std::string::npos) << outcome.out;
+    for (const char* word : {"inf%", "nan", " inf"})
+        EXPECT_EQ(outcome.out.find(word), std::string::npos) << word << '\n' << outcome.out;
+}
+
 TEST_F(CompareCommand, TooFewSamplesAreAskedForByNumber)
 {
     const Outcome few = compare({scene_file("directional_over_plane")}, {"-s", "64", "--seed", "7"});
