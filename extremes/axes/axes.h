@@ -6,6 +6,8 @@
 
 namespace extremes {
 
+Axis critical_angle_axis();
 Axis ior_axis();
+Axis ior_near_1_axis();
 
 } // namespace extremes
