@@ -42,6 +42,11 @@ double error_near_critical_angle(Format format, double parameter)
     return largest;
 }
 
+// The error of cos_t is D / cos_t, but never more than sqrt(D), since the roots of two numbers differ by
+// no more than the root of their difference. The derivative of the reflectance by cos_t at 0 is
+// 2 (1 + n^2) / g, and less elsewhere. Together that is at most 28 sqrt(u) for these n in single
+// precision, and 32.2 sqrt(u) in double: no failure, at any angle.
+
 /// Of the transmitted share T, relative to itself. For each polarisation T is 4 a b / (a + b)^2, where
 /// one of a and b has the factor cos_t, so T changes relatively by no more than cos_t does: half as much
 /// as its square, and 10% more for terms of second order. The share is 1 less the reflected one, which
@@ -65,7 +70,8 @@ Axis critical_angle_axis()
         "Inside glass with a random index of refraction from 1.2 to 2.5, a ray meets the surface at the "
         "critical angle plus or minus the parameter. The error is the larger of the error of the "
         "reflected share, relative to all light, and the angle between the refracted ray and the true "
-        "one; it is at most 7.2 times the square root of the unit roundoff of the format times four. "
+        "one. It is never more than 33 times the square root of the unit roundoff: 0.8% in single "
+        "precision. "
         "The methods with the word \"transmitted\" have the error of the transmitted share relative to "
         "itself; light that passes where there is total reflection is a leak. The truth is Snell's law "
         "and Fresnel's equations with a hundred digits.";
