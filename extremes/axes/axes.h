@@ -6,6 +6,10 @@
 
 namespace extremes {
 
+Axis critical_angle_axis();
+Axis fov_narrow_axis();
+Axis fov_wide_axis();
 Axis ior_axis();
+Axis ior_near_1_axis();
 
 } // namespace extremes
