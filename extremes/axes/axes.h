@@ -12,4 +12,6 @@ Axis fov_wide_axis();
 Axis ior_axis();
 Axis ior_near_1_axis();
 
+Axis distance_axis();
+
 } // namespace extremes

@@ -1,0 +1,113 @@
+#include "extremes/leave/leave_case.h"
+
+#include <cmath>
+
+namespace extremes {
+
+namespace {
+
+/// The t at which the line from `origin` along `direction` crosses the plane of the triangle; none if it
+/// passes outside the triangle or parallel to it.
+std::optional<Exact> triangle_crossing(const scenes::Triangle& triangle, const ExactVec3& origin,
+                                       const ExactVec3& direction)
+{
+    const ExactVec3 a = ExactVec3(triangle.vertices[0]) - origin;
+    const ExactVec3 b = ExactVec3(triangle.vertices[1]) - origin;
+    const ExactVec3 c = ExactVec3(triangle.vertices[2]) - origin;
+    // Signed volumes of the line with each edge.
+    const Exact u = dot(direction, cross(c, b));
+    const Exact v = dot(direction, cross(a, c));
+    const Exact w = dot(direction, cross(b, a));
+    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return std::nullopt;
+    const ExactVec3 normal = cross(b - a, c - a);
+    const Exact slope = dot(direction, normal);
+    if (slope == 0) return std::nullopt;
+    return Exact(dot(a, normal) / slope);
+}
+
+/// Calls found(t) for the points at which a line crosses a primitive.
+template <class Found>
+void for_each_crossing(const scenes::Scene& scene, std::uint32_t primitive, const ExactVec3& origin,
+                       const ExactVec3& direction, const Found& found)
+{
+    if (primitive < scene.triangles.size()) {
+        if (const auto t = triangle_crossing(scene.triangles[primitive], origin, direction)) found(*t);
+        return;
+    }
+    const scenes::Sphere& sphere = scene.spheres[primitive - scene.triangles.size()];
+    const ExactVec3 f = origin - ExactVec3(sphere.center);
+    const Exact a = dot(direction, direction);
+    const Exact b = dot(f, direction);
+    const Exact discriminant = b * b - a * (dot(f, f) - Exact(sphere.radius) * Exact(sphere.radius));
+    if (discriminant < 0) return;
+    const Exact root = sqrt(discriminant);
+    found(Exact((-b - root) / a));
+    found(Exact((-b + root) / a));
+}
+
+} // namespace
+
+scenes::Scene empty_scene()
+{
+    scenes::Scene scene;
+    scene.name = "extremes";
+    scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
+    scene.material_names = {"grey"};
+    return scene;
+}
+
+std::optional<Onward> exact_onward(const scenes::Scene& scene, const LeaveRay& ray)
+{
+    const ExactVec3 origin(ray.origin);
+    const ExactVec3 direction(ray.direction);
+    std::optional<Onward> first;
+    for (std::uint32_t i = 0; i < primitive_count(scene); ++i)
+        for_each_crossing(scene, i, origin, direction, [&](const Exact& t) {
+            if (t > 0 && (!first || t < first->distance)) first = Onward{i, t};
+        });
+    if (!first || first->primitive != ray.start) return std::nullopt;
+    const ExactVec3 point = origin + first->distance * direction;
+    const ExactVec3 onward(ray.onward);
+    // The start itself is crossed at 0, up to the rounding of 100 digits, and a sphere once more.
+    Exact largest = 0;
+    std::optional<Exact> far;
+    for_each_crossing(scene, ray.start, point, onward, [&](const Exact& t) {
+        if (abs(t) < largest) return;
+        largest = abs(t);
+        far = t;
+    });
+    std::optional<Onward> next;
+    if (ray.start >= scene.triangles.size() && far && *far > 0) next = Onward{ray.start, *far};
+    for (std::uint32_t i = 0; i < primitive_count(scene); ++i)
+        if (i != ray.start)
+            for_each_crossing(scene, i, point, onward, [&](const Exact& t) {
+                if (t > 0 && (!next || t < next->distance)) next = Onward{i, t};
+            });
+    return next;
+}
+
+void judge_onward(const LeaveCase& from, const LeaveRay& ray, const Onward& truth,
+                  const FoundOnward& found, Tally& tally)
+{
+    if (found.first != ray.start) {
+        tally.add(Failure::missed);
+        return;
+    }
+    if (!found.second) {
+        tally.add(Failure::leaked);
+        return;
+    }
+    if (!found.finite) {
+        tally.add(Failure::not_finite);
+        return;
+    }
+    const Exact difference = (found.distance - truth.distance) * length(ExactVec3(ray.onward));
+    if (*found.second == truth.primitive)
+        tally.add((abs(difference) / Exact(from.size)).convert_to<double>());
+    else if (*found.second == ray.start)
+        tally.add(Failure::self_hit);
+    else
+        tally.add(difference > 0 ? Failure::leaked : Failure::wrong_order);
+}
+
+} // namespace extremes

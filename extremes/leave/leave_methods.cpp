@@ -1,0 +1,133 @@
+// How our own two implementations leave surfaces, as they are used in renders.
+
+#include "extremes/leave/for_each_ray.h"
+
+#include "cuda/launch/device.h"
+#include "cuda/launch/ray_pairs.h"
+#include "cuda/scene/float_notices.h"
+#include "cuda/scene/scene_arrays.h"
+#include "ref/trees/geometry.h"
+#include "scenes/placed.h"
+#include "scenes/read_scene.h"
+
+#include <exception>
+#include <stdexcept>
+
+namespace extremes {
+
+namespace {
+
+/// `scene` as both renderers get it: placed near the origin, about one unit large, and with it the
+/// origins of the rays, which are made point lights for this.
+scenes::Scene placed_with_origins(const LeaveCase& from)
+{
+    scenes::Scene scene = from.scene;
+    for (const LeaveRay& ray : from.rays) scene.point_lights.push_back({ray.origin, scenes::Rgb(0.0)});
+    return scenes::placed(std::move(scene));
+}
+
+/// Whether placing the scene multiplied lengths by this number, which may be beyond the range of
+/// doubles. It is a power of two.
+Exact placed_unit(const LeaveCase& from, const scenes::Scene& placed)
+{
+    // The largest difference of two coordinates, before and after: both are exact.
+    const auto extent = [](const scenes::Scene& scene) {
+        Exact largest = 0;
+        const auto add = [&](const scenes::Vec3& a, const scenes::Vec3& b) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const Exact d = abs(Exact(a[axis]) - Exact(b[axis]));
+                if (d > largest) largest = d;
+            }
+        };
+        for (const scenes::Triangle& t : scene.triangles) {
+            add(t.vertices[0], t.vertices[1]);
+            add(t.vertices[0], t.vertices[2]);
+        }
+        for (const scenes::Sphere& s : scene.spheres) add(scenes::Vec3(s.radius), scenes::Vec3(0.0));
+        return largest;
+    };
+    return extent(placed) / extent(from.scene);
+}
+
+void run_ref(MakeLeaveCase make, double parameter, Random& random, int cases, Tally& tally)
+{
+    for_each_leave_ray(make, parameter, random, cases, tally, [](const LeaveCase& from, Tally& /*t*/) {
+        const scenes::Scene scene = placed_with_origins(from);
+        const Exact unit = placed_unit(from, scene);
+        const ref::Geometry geometry(scene, ref::Builder::sah_leaf, scenes::coincidences(scene));
+        std::vector<FoundOnward> all;
+        for (std::size_t i = 0; i < from.rays.size(); ++i) {
+            const LeaveRay& ray = from.rays[i];
+            FoundOnward found;
+            const ref::Ray first{scene.point_lights[i].position, ray.direction};
+            if (const auto hit = intersect(geometry, first)) {
+                found.first = hit->primitive;
+                const ref::SurfacePoint point = surface_point(geometry, first, *hit);
+                if (const auto next =
+                        intersect(geometry, {leave_surface(point, ray.onward), ray.onward})) {
+                    found.second = next->primitive;
+                    found.finite = std::isfinite(next->t);
+                    if (found.finite) found.distance = Exact(next->t) / unit;
+                }
+            }
+            all.push_back(found);
+        }
+        return all;
+    });
+}
+
+using TracePairs = std::vector<fast::PairOfHits> (*)(const fast::SceneArrays&,
+                                                     std::span<const fast::RayPair>);
+
+void run_fast(TracePairs trace, MakeLeaveCase make, double parameter, Random& random, int cases,
+              Tally& tally)
+{
+    for_each_leave_ray(make, parameter, random, cases, tally, [&](const LeaveCase& from, Tally& of) {
+        const scenes::Scene scene = placed_with_origins(from);
+        const Exact unit = placed_unit(from, scene);
+        for (const std::string& notice : fast::float_notices(scene)) of.notice(notice);
+        const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
+        std::vector<fast::RayPair> pairs;
+        for (std::size_t i = 0; i < from.rays.size(); ++i)
+            pairs.push_back(
+                {{arrays.place(scene.point_lights[i].position), std::numeric_limits<float>::infinity(),
+                  fast::Vec3(from.rays[i].direction)},
+                 fast::Vec3(from.rays[i].onward)});
+        std::vector<FoundOnward> all;
+        for (const auto& [first, second] : trace(arrays, pairs)) {
+            FoundOnward found;
+            if (first.primitive != fast::no_primitive) found.first = first.primitive;
+            if (second.primitive != fast::no_primitive) {
+                found.second = second.primitive;
+                found.finite = std::isfinite(second.t);
+                if (found.finite) found.distance = Exact(second.t) / (unit * Exact(arrays.place.scale));
+            }
+            all.push_back(found);
+        }
+        return all;
+    });
+}
+
+} // namespace
+
+std::vector<Method> leave_methods(MakeLeaveCase make, bool tricks)
+{
+    const auto fast_method = [&](const char* name, TracePairs trace) {
+        return Method{name, Format::binary32,
+                      [trace, make](double parameter, Random& random, int cases, Tally& tally) {
+                          run_fast(trace, make, parameter, random, cases, tally);
+                      }};
+    };
+    std::vector<Method> methods = {{"ref", Format::binary64,
+                                    [make](double parameter, Random& random, int cases, Tally& tally) {
+                                        run_ref(make, parameter, random, cases, tally);
+                                    }},
+                                   fast_method("host", fast::trace_ray_pairs)};
+    static const bool has_device = fast::find_device().usable;
+    if (has_device) methods.push_back(fast_method("cuda", fast::trace_ray_pairs_on_device));
+    if (tricks)
+        for (Method& trick : leave_tricks(make)) methods.push_back(std::move(trick));
+    return methods;
+}
+
+} // namespace extremes

@@ -1,0 +1,221 @@
+// The usual tricks by which renderers leave surfaces, in both formats. Coordinates are used as they
+// stand in the file, rounded to the format, and positions are origin + t direction. The tests of
+// primitives are those of our two implementations, so what differs is the trick.
+
+#include "extremes/leave/for_each_ray.h"
+
+#include "cuda/trees/sphere.h"
+#include "cuda/trees/triangle.h"
+#include "ref/trees/intersect_primitive.h"
+
+#include <glm/geometric.hpp>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace extremes {
+
+namespace {
+
+enum class Trick { fixed, relative, ulps, exclude, determinant };
+
+/// A hit on a primitive of a scene in the format F.
+template <class F>
+struct TrickHit {
+    F t;
+    std::uint32_t primitive;
+};
+
+/// The scene in one format: a list of primitives that are all tested, without a tree.
+template <class F>
+class RoundedScene;
+
+template <>
+class RoundedScene<double> {
+public:
+    using Vec3 = glm::dvec3;
+
+    explicit RoundedScene(const scenes::Scene& scene) : scene_(&scene) {}
+    /// The first hit. `leaves`: the primitive on which the ray starts and that is not to be hit there.
+    [[nodiscard]] std::optional<TrickHit<double>> intersect(const Vec3& origin, const Vec3& direction,
+                                                            std::optional<std::uint32_t> leaves) const
+    {
+        ref::Ray ray{origin, direction};
+        const std::array<std::uint32_t, 1> on{leaves.value_or(0)};
+        if (leaves) ray.on = on;
+        const ref::ShearedRay sheared(ray);
+        std::optional<ref::Hit> closest;
+        for (std::uint32_t i = 0; i < primitive_count(*scene_); ++i)
+            if (const auto hit = ref::intersect_primitive(*scene_, ray, sheared, i))
+                if (!closest || hit->t < closest->t) closest = hit;
+        if (!closest) return std::nullopt;
+        return TrickHit<double>{closest->t, closest->primitive};
+    }
+    [[nodiscard]] Vec3 corner(std::uint32_t triangle, std::size_t i) const
+    {
+        return scene_->triangles[triangle].vertices[i];
+    }
+    [[nodiscard]] Vec3 center(std::uint32_t sphere) const { return scene_->spheres[sphere].center; }
+
+private:
+    const scenes::Scene* scene_;
+};
+
+template <>
+class RoundedScene<float> {
+public:
+    using Vec3 = glm::vec3;
+
+    explicit RoundedScene(const scenes::Scene& scene)
+    {
+        for (const scenes::Triangle& t : scene.triangles)
+            triangles_.push_back({{Vec3(t.vertices[0]), Vec3(t.vertices[1]), Vec3(t.vertices[2])}});
+        for (const scenes::Sphere& s : scene.spheres)
+            spheres_.push_back({Vec3(s.center), static_cast<float>(s.radius)});
+    }
+    [[nodiscard]] std::optional<TrickHit<float>> intersect(const Vec3& origin, const Vec3& direction,
+                                                           std::optional<std::uint32_t> leaves) const
+    {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        const fast::Ray ray{origin, infinity, direction};
+        const fast::ShearedRay sheared(ray);
+        std::optional<TrickHit<float>> closest;
+        const auto add = [&](float t, std::uint32_t primitive) {
+            if (t > 0 && (!closest || t < closest->t)) closest = TrickHit<float>{t, primitive};
+        };
+        fast::Hit hit{};
+        for (std::uint32_t i = 0; i < triangles_.size(); ++i)
+            if (leaves != i && fast::intersect_triangle(sheared, triangles_[i], infinity, hit))
+                add(hit.t, i);
+        for (std::uint32_t i = 0; i < spheres_.size(); ++i) {
+            const auto primitive = static_cast<std::uint32_t>(triangles_.size()) + i;
+            if (leaves == primitive) // one root is 0, the other is this
+                add(-2 * glm::dot(origin - spheres_[i].center, direction) /
+                        glm::dot(direction, direction),
+                    primitive);
+            else if (fast::intersect_sphere(ray, spheres_[i], infinity, hit))
+                add(hit.t, primitive);
+        }
+        return closest;
+    }
+    [[nodiscard]] Vec3 corner(std::uint32_t triangle, std::size_t i) const
+    {
+        return triangles_[triangle].vertices[i];
+    }
+    [[nodiscard]] Vec3 center(std::uint32_t sphere) const { return spheres_[sphere].center; }
+
+private:
+    std::vector<fast::Triangle> triangles_;
+    std::vector<fast::Sphere> spheres_;
+};
+
+/// The unit normal at `position` on the side of `onward`.
+template <class F>
+auto facing_normal(const RoundedScene<F>& scene, std::size_t triangles, std::uint32_t primitive,
+                   const typename RoundedScene<F>::Vec3& position,
+                   const typename RoundedScene<F>::Vec3& onward)
+{
+    using Vec3 = typename RoundedScene<F>::Vec3;
+    Vec3 normal;
+    if (primitive < triangles) {
+        const Vec3 v0 = scene.corner(primitive, 0);
+        normal = glm::cross(scene.corner(primitive, 1) - v0, scene.corner(primitive, 2) - v0);
+    } else {
+        normal = position - scene.center(primitive - static_cast<std::uint32_t>(triangles));
+    }
+    normal = glm::normalize(normal);
+    return glm::dot(normal, onward) < 0 ? -normal : normal;
+}
+
+/// `x` moved by units in the last place in proportion to `n`, or, near 0, by a fixed distance: with the
+/// constants of [Waechter and Binder 2019, listing 6-1] for floats. For doubles the fixed distance is
+/// smaller by the ratio of the formats' units in the last place, 2^29.
+float moved_by_ulps(float x, float n)
+{
+    constexpr float near = 1.0f / 32.0f;
+    if (std::abs(x) < near) return x + n / 65536.0f;
+    const auto steps = static_cast<std::int32_t>(256.0f * n);
+    return std::bit_cast<float>(std::bit_cast<std::int32_t>(x) + (x < 0 ? -steps : steps));
+}
+double moved_by_ulps(double x, double n)
+{
+    constexpr double near = 1.0 / 32.0;
+    if (std::abs(x) < near) return x + n * 0x1p-45;
+    const auto steps = static_cast<std::int64_t>(256.0 * n);
+    return std::bit_cast<double>(std::bit_cast<std::int64_t>(x) + (x < 0 ? -steps : steps));
+}
+
+template <class F>
+FoundOnward found_by_trick(const RoundedScene<F>& scene, std::size_t triangles, const LeaveRay& ray,
+                           Trick trick, F epsilon)
+{
+    using Vec3 = typename RoundedScene<F>::Vec3;
+    FoundOnward found;
+    const Vec3 origin(ray.origin);
+    const Vec3 direction = glm::normalize(Vec3(ray.direction));
+    const auto first = scene.intersect(origin, direction, std::nullopt);
+    if (!first) return found;
+    found.first = first->primitive;
+    const Vec3 onward(ray.onward);
+    const F length = glm::length(onward);
+    Vec3 start = origin + first->t * direction;
+    F moved = 0; // along the ray, in multiples of onward
+    if (trick == Trick::fixed) moved = epsilon / length;
+    if (trick == Trick::relative) moved = epsilon * first->t / length;
+    start += moved * onward;
+    if (trick == Trick::ulps) {
+        const Vec3 n = facing_normal(scene, triangles, first->primitive, start, onward);
+        for (int axis = 0; axis < 3; ++axis) start[axis] = moved_by_ulps(start[axis], n[axis]);
+    }
+    const auto next = scene.intersect(
+        start, onward, trick == Trick::exclude ? std::optional(first->primitive) : std::nullopt);
+    if (!next) return found;
+    found.second = next->primitive;
+    const F distance = next->t + moved;
+    found.finite = std::isfinite(distance);
+    if (found.finite) found.distance = Exact(distance);
+    return found;
+}
+
+template <class F>
+Method trick_method(const std::string& name, MakeLeaveCase make, Trick trick, double epsilon = 0)
+{
+    constexpr bool is_double = std::is_same_v<F, double>;
+    return {(is_double ? "double, " : "float, ") + name, is_double ? Format::binary64 : Format::binary32,
+            [=](double parameter, Random& random, int cases, Tally& tally) {
+                for_each_leave_ray(
+                    make, parameter, random, cases, tally, [&](const LeaveCase& from, Tally& /*t*/) {
+                        const RoundedScene<F> scene(from.scene);
+                        std::vector<FoundOnward> all;
+                        for (const LeaveRay& ray : from.rays)
+                            all.push_back(found_by_trick<F>(scene, from.scene.triangles.size(), ray,
+                                                            trick, static_cast<F>(epsilon)));
+                        return all;
+                    });
+            }};
+}
+
+template <class F>
+void add_tricks(std::vector<Method>& methods, MakeLeaveCase make)
+{
+    methods.push_back(trick_method<F>("fixed 1e-3", make, Trick::fixed, 1e-3));
+    methods.push_back(trick_method<F>("fixed 1e-4", make, Trick::fixed, 1e-4));
+    methods.push_back(trick_method<F>("fixed 1e-6", make, Trick::fixed, 1e-6));
+    methods.push_back(trick_method<F>("relative 1e-3", make, Trick::relative, 1e-3));
+    methods.push_back(trick_method<F>("ulps", make, Trick::ulps));
+    methods.push_back(trick_method<F>("exclude", make, Trick::exclude));
+}
+
+} // namespace
+
+std::vector<Method> leave_tricks(MakeLeaveCase make)
+{
+    std::vector<Method> methods;
+    add_tricks<float>(methods, make);
+    add_tricks<double>(methods, make);
+    return methods;
+}
+
+} // namespace extremes
