@@ -12,6 +12,8 @@ Axis fov_wide_axis();
 Axis ior_axis();
 Axis ior_near_1_axis();
 
+Axis scale_axis();
 Axis distance_axis();
+Axis sliver_axis();
 
 } // namespace extremes

@@ -1,6 +1,6 @@
 #include "extremes/leave/leave_case.h"
 
-#include <cmath>
+#include <glm/geometric.hpp>
 
 namespace extremes {
 
@@ -14,15 +14,17 @@ std::optional<Exact> triangle_crossing(const scenes::Triangle& triangle, const E
     const ExactVec3 a = ExactVec3(triangle.vertices[0]) - origin;
     const ExactVec3 b = ExactVec3(triangle.vertices[1]) - origin;
     const ExactVec3 c = ExactVec3(triangle.vertices[2]) - origin;
-    // Signed volumes of the line with each edge.
-    const Exact u = dot(direction, cross(c, b));
-    const Exact v = dot(direction, cross(a, c));
-    const Exact w = dot(direction, cross(b, a));
-    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return std::nullopt;
-    const ExactVec3 normal = cross(b - a, c - a);
-    const Exact slope = dot(direction, normal);
-    if (slope == 0) return std::nullopt;
-    return Exact(dot(a, normal) / slope);
+    // Signed volumes of the line with each edge: of one sign where it passes inside.
+    const ExactVec3 bc = cross(b, c);
+    const Exact u = dot(direction, bc);
+    const Exact v = dot(direction, cross(c, a));
+    if ((u < 0 && v > 0) || (u > 0 && v < 0)) return std::nullopt;
+    const Exact w = dot(direction, cross(a, b));
+    if ((u < 0 && w > 0) || (u > 0 && w < 0) || (v < 0 && w > 0) || (v > 0 && w < 0))
+        return std::nullopt;
+    const Exact sum = u + v + w; // the volume of the parallelepiped of the normal and the direction
+    if (sum == 0) return std::nullopt;
+    return Exact(dot(a, bc) / sum);
 }
 
 /// Calls found(t) for the points at which a line crosses a primitive.
@@ -101,7 +103,7 @@ void judge_onward(const LeaveCase& from, const LeaveRay& ray, const Onward& trut
         tally.add(Failure::not_finite);
         return;
     }
-    const Exact difference = (found.distance - truth.distance) * length(ExactVec3(ray.onward));
+    const Exact difference = (found.distance - truth.distance) * Exact(glm::length(ray.onward));
     if (*found.second == truth.primitive)
         tally.add((abs(difference) / Exact(from.size)).convert_to<double>());
     else if (*found.second == ray.start)

@@ -4,8 +4,8 @@
 
 #include "extremes/leave/for_each_ray.h"
 
+#include "cuda/trees/intersect.h"
 #include "cuda/trees/sphere.h"
-#include "cuda/trees/triangle.h"
 #include "ref/trees/intersect_primitive.h"
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,10 @@
 #include "extremes/leave/shapes.h"
 
+#include "scenes/largest_component.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <cmath>
 
 namespace extremes {
@@ -15,18 +20,16 @@ Turn random_turn(Random& random)
 
 scenes::Vec3 direction_between(const scenes::Vec3& a, const scenes::Vec3& b)
 {
-    const ExactVec3 d = ExactVec3(b) - ExactVec3(a);
-    const Exact scale = 1 / length(d);
-    return {Exact(d.x * scale).convert_to<double>(), Exact(d.y * scale).convert_to<double>(),
-            Exact(d.z * scale).convert_to<double>()};
+    const double largest = std::max(scenes::largest_component(a), scenes::largest_component(b));
+    const bool would_overflow = largest > 1e300;
+    const scenes::Vec3 d = would_overflow ? 0.5 * b - 0.5 * a : b - a;
+    return glm::normalize(d / scenes::largest_component(d));
 }
 
-double exact_cosine(const std::array<scenes::Vec3, 3>& triangle, const scenes::Vec3& direction)
+double cosine_to_normal(const std::array<scenes::Vec3, 3>& triangle, const scenes::Vec3& direction)
 {
-    const ExactVec3 n = cross(ExactVec3(triangle[1]) - ExactVec3(triangle[0]),
-                              ExactVec3(triangle[2]) - ExactVec3(triangle[0]));
-    const ExactVec3 d(direction);
-    return abs(Exact(dot(n, d) / (length(n) * length(d)))).convert_to<double>();
+    return std::abs(glm::dot(
+        glm::normalize(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0])), direction));
 }
 
 } // namespace extremes

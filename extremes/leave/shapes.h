@@ -20,8 +20,8 @@ struct Turn {
 };
 Turn random_turn(Random& random);
 
-/// The unit vector from `a` to `b`, computed exactly and rounded: also where the difference of doubles
-/// would overflow or its square underflow. The points must differ.
+/// The unit vector from `a` to `b`, up to rounding: also where the difference of doubles would overflow
+/// or its square underflow. The points must differ.
 scenes::Vec3 direction_between(const scenes::Vec3& a, const scenes::Vec3& b);
 
 /// Weights of N points: none below `margin`, sum 1. N margin must be less than 1.
@@ -37,8 +37,8 @@ std::array<double, N> random_weights(Random& random, double margin)
     return weights;
 }
 
-/// |cosine| between the normal of a triangle and a direction, as computed exactly.
-double exact_cosine(const std::array<scenes::Vec3, 3>& triangle, const scenes::Vec3& direction);
+/// |cosine| between the normal of a triangle about one unit large and a unit direction.
+double cosine_to_normal(const std::array<scenes::Vec3, 3>& triangle, const scenes::Vec3& direction);
 
 /// The point of a triangle with these weights.
 inline scenes::Vec3 weighted(const std::array<scenes::Vec3, 3>& v, const std::array<double, 3>& w)

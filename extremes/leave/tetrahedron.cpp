@@ -55,8 +55,8 @@ LeaveCase tetrahedron_case(Random& random, int rays, double size,
             return ray;
         };
         const LeaveRay meant = ray_in(shape);
-        if (exact_cosine(face_of(shape, start), meant.direction) < least_cosine + 0.01 ||
-            exact_cosine(face_of(shape, target), meant.onward) < least_cosine + 0.01)
+        if (cosine_to_normal(face_of(shape, start), meant.direction) < least_cosine + 0.01 ||
+            cosine_to_normal(face_of(shape, target), meant.onward) < least_cosine + 0.01)
             continue;
         LeaveRay ray = ray_in(corners);
         if (ray.direction == scenes::Vec3(0.0)) { // keeps the number of rays: this one meets nothing
@@ -70,14 +70,7 @@ LeaveCase tetrahedron_case(Random& random, int rays, double size,
 
 double bound_in_tetrahedron(Format format, double farthest)
 {
-    const double u = format == Format::binary64 ? 0x1p-53 : 0x1p-24;
-    constexpr double a = tetrahedron_extent;
-    constexpr double c = least_cosine;
-    const double M = farthest;
-    const double r3 = std::numbers::sqrt3;
-    double bound = (r3 * (7 / c + 22 + 7) * a + 4 * r3 * M) / c + 4 * a;
-    if (format == Format::binary32) bound += (r3 * (2 * M + a) / c + r3 * M + r3 * a) / c;
-    return u * bound;
+    return bound_of_leaving(format, tetrahedron_extent, farthest, least_cosine);
 }
 
 } // namespace extremes
