@@ -15,5 +15,8 @@ Axis ior_near_1_axis();
 Axis scale_axis();
 Axis distance_axis();
 Axis sliver_axis();
+Axis grazing_axis();
+Axis grazing_hit_axis();
+Axis gap_axis();
 
 } // namespace extremes

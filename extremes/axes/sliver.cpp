@@ -96,7 +96,8 @@ LeaveCase tube_case(double parameter, Random& random, int rays)
 /// the origin, so that no coordinate exceeds its extent.
 double bound_of_needles(Format format, double aspect)
 {
-    return bound_of_leaving(format, tube_extent, tube_extent, needle_cosine) * aspect / 0.5;
+    return bound_of_leaving(format, tube_extent, tube_extent, needle_cosine, needle_cosine) * aspect /
+           0.5;
 }
 
 } // namespace

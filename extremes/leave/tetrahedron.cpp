@@ -70,7 +70,7 @@ LeaveCase tetrahedron_case(Random& random, int rays, double size,
 
 double bound_in_tetrahedron(Format format, double farthest)
 {
-    return bound_of_leaving(format, tetrahedron_extent, farthest, least_cosine);
+    return bound_of_leaving(format, tetrahedron_extent, farthest, least_cosine, least_cosine);
 }
 
 } // namespace extremes
