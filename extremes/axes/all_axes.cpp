@@ -4,7 +4,8 @@ namespace extremes {
 
 std::vector<Axis> all_axes()
 {
-    return {ior_near_1_axis(), ior_axis(), critical_angle_axis(), fov_narrow_axis(), fov_wide_axis()};
+    return {far_camera_axis(),     far_light_axis(),  ior_near_1_axis(), ior_axis(),
+            critical_angle_axis(), fov_narrow_axis(), fov_wide_axis()};
 }
 
 } // namespace extremes

@@ -7,6 +7,8 @@
 namespace extremes {
 
 Axis critical_angle_axis();
+Axis far_camera_axis();
+Axis far_light_axis();
 Axis fov_narrow_axis();
 Axis fov_wide_axis();
 Axis ior_axis();
