@@ -4,8 +4,9 @@ namespace extremes {
 
 std::vector<Axis> all_axes()
 {
-    return {far_camera_axis(),     far_light_axis(),  ior_near_1_axis(), ior_axis(),
-            critical_angle_axis(), fov_narrow_axis(), fov_wide_axis()};
+    return {far_camera_axis(),   far_light_axis(),  sphere_ratio_axis(), sphere_floor_axis(),
+            near_surface_axis(), ior_near_1_axis(), ior_axis(),          critical_angle_axis(),
+            fov_narrow_axis(),   fov_wide_axis()};
 }
 
 } // namespace extremes

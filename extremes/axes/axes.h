@@ -13,5 +13,8 @@ Axis fov_narrow_axis();
 Axis fov_wide_axis();
 Axis ior_axis();
 Axis ior_near_1_axis();
+Axis near_surface_axis();
+Axis sphere_floor_axis();
+Axis sphere_ratio_axis();
 
 } // namespace extremes

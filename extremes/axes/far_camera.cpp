@@ -1,158 +1,19 @@
 // An eye far away from the scene.
 
 #include "extremes/axes/axes.h"
-#include "extremes/exact.h"
+#include "extremes/far/far_eye.h"
+#include "extremes/far/met_points.h"
 
-#include "cuda/launch/ray_pairs.h"
-#include "ref/trees/geometry.h"
-#include "scenes/contacts.h"
 #include "scenes/placed.h"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 namespace extremes {
 
 namespace {
 
-constexpr int rays_of_far_eye = 10;
-constexpr double far_sphere_sine = 0.7; // of the angle between its normals and the eye, at most
-
-/// A cube or a sphere of diameter 1 (of the sphere: the diagonal of its box) with an eye, and points of
-/// it that the eye sees.
-struct FarEye {
-    scenes::Scene scene;
-    std::vector<ExactVec3> targets;
-};
-
-/// Two unit vectors that make a frame with the unit vector `z`.
-std::pair<scenes::Vec3, scenes::Vec3> axes_across(const scenes::Vec3& z, Random& random)
-{
-    const scenes::Vec3 x = glm::normalize(glm::cross(z, random.direction()));
-    return {x, glm::cross(z, x)};
-}
-
-void add_far_sphere(FarEye& far, const scenes::Vec3& to_eye, Random& random)
-{
-    const scenes::Sphere sphere{0.1 * random.direction(), 0.5 / std::sqrt(3.0), 0};
-    far.scene.spheres = {sphere};
-    const auto [x, y] = axes_across(to_eye, random);
-    for (int i = 0; i < rays_of_far_eye; ++i) {
-        const double sine = far_sphere_sine * std::sqrt(random.uniform());
-        const double phi = random.between(0, 6.28);
-        const scenes::Vec3 across = std::cos(phi) * x + std::sin(phi) * y;
-        const ExactVec3 normal(std::sqrt(1 - sine * sine) * to_eye + sine * across);
-        far.targets.push_back(ExactVec3(sphere.center) +
-                              (Exact(sphere.radius) / length(normal)) * normal);
-    }
-}
-
-void add_far_cube(FarEye& far, const scenes::Vec3& to_eye, Random& random)
-{
-    const scenes::Vec3 z = random.direction();
-    const auto [x, y] = axes_across(z, random);
-    const scenes::Vec3 center = 0.1 * random.direction();
-    const double half = 0.5 / std::sqrt(3.0);
-    double best = 0;
-    for (const scenes::Vec3& normal : {x, -x, y, -y, z, -z}) {
-        const auto [u, v] = normal == x || normal == -x   ? std::pair(y, z)
-                            : normal == y || normal == -y ? std::pair(z, x)
-                                                          : std::pair(x, y);
-        const auto corner = [&, u = u, v = v](double a, double b) {
-            return center + half * (normal + a * u + b * v);
-        };
-        const auto first = far.scene.triangles.size();
-        far.scene.triangles.push_back({{corner(-1, -1), corner(1, -1), corner(-1, 1)}, 0});
-        far.scene.triangles.push_back({{corner(1, 1), corner(-1, 1), corner(1, -1)}, 0});
-        if (glm::dot(normal, to_eye) <= best) continue; // of all faces the one that faces the eye
-        best = glm::dot(normal, to_eye);
-        far.targets.clear();
-        for (int i = 0; i < rays_of_far_eye; ++i) {
-            const auto& p = far.scene.triangles[first + random.below(2)].vertices;
-            const double b1 = random.between(0.05, 0.9);
-            const double b2 = random.between(0.05, 0.95 - b1);
-            far.targets.push_back(ExactVec3(p[0]) + Exact(b1) * (ExactVec3(p[1]) - ExactVec3(p[0])) +
-                                  Exact(b2) * (ExactVec3(p[2]) - ExactVec3(p[0])));
-        }
-    }
-}
-
-FarEye far_eye(double distance, Random& random)
-{
-    FarEye far;
-    const scenes::Vec3 to_eye = random.direction();
-    far.scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
-    far.scene.material_names = {"grey"};
-    far.scene.camera = scenes::Camera{distance * to_eye,           {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
-                                      scenes::FovAxis::horizontal, 1};
-    if (random.sign() > 0)
-        add_far_cube(far, to_eye, random);
-    else
-        add_far_sphere(far, to_eye, random);
-    return far;
-}
-
-/// The points that the rays from the eye in the unit directions `towards` meet.
-using MetPoints = std::vector<std::optional<scenes::Vec3>>;
-using FarTracer = MetPoints (*)(const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards);
-
-MetPoints met_by_reference(const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards)
-{
-    const ref::Geometry geometry(scene);
-    const std::vector<std::uint32_t> on = scenes::surfaces_at(scene, scene.camera->eye);
-    MetPoints met;
-    for (const scenes::Vec3& direction : towards) {
-        const ref::Ray ray{scene.camera->eye, direction, std::numeric_limits<double>::infinity(), on};
-        const auto hit = ref::intersect(geometry, ray);
-        met.push_back(hit ? std::optional(ref::surface_point(geometry, ray, *hit).position)
-                          : std::nullopt);
-    }
-    return met;
-}
-
-/// `moved_near`: the origin of each ray is moved along it to the scene, in double, before it is rounded.
-MetPoints met_by_floats(const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards,
-                        bool moved_near)
-{
-    const fast::SceneArrays arrays = fast::scene_arrays(scene, false);
-    const scenes::Vec3 eye = scene.camera->eye;
-    const double distance = glm::length(eye - arrays.place.origin);
-    std::vector<fast::RayPair> pairs;
-    for (const scenes::Vec3& direction : towards) {
-        const scenes::Vec3 from =
-            moved_near ? eye + std::max(0.0, distance - 1 / arrays.place.scale) * direction : eye;
-        const fast::Vec3 d(direction);
-        pairs.push_back({{arrays.place(from), std::numeric_limits<float>::infinity(), d}, -d});
-    }
-    MetPoints met;
-    const auto hits = fast::trace_ray_pairs(arrays, pairs);
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        const fast::Hit& hit = hits[i].first;
-        if (hit.primitive == fast::no_primitive) {
-            met.emplace_back();
-            continue;
-        }
-        fast::Vec3 position;
-        if (hit.primitive < arrays.triangles.size()) {
-            const auto& v = arrays.triangles[hit.primitive].vertices;
-            position = v[0] + (hit.b1 * (v[1] - v[0]) + hit.b2 * (v[2] - v[0]));
-        } else {
-            const fast::Sphere& sphere = arrays.spheres[hit.primitive - arrays.triangles.size()];
-            const fast::Ray& ray = pairs[i].first;
-            position =
-                sphere.center +
-                sphere.radius * glm::normalize(ray.origin + hit.t * ray.direction - sphere.center);
-        }
-        met.emplace_back(arrays.place.origin + scenes::Vec3(position) / arrays.place.scale);
-    }
-    return met;
-}
-
-auto far_camera_cases(FarTracer trace)
+auto far_camera_cases(EyeTracer trace)
 {
     return [trace](double parameter, Random& random, int cases, Tally& tally) {
         for (int done = 0; done < cases; done += rays_of_far_eye) {
@@ -232,14 +93,8 @@ Axis far_camera_axis()
     axis.values = powers_of_ten(0, 18, 0.5);
     axis.methods = {
         {"ref", Format::binary64, far_camera_cases(met_by_reference)},
-        {"host", Format::binary32,
-         far_camera_cases([](const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards) {
-             return met_by_floats(scene, towards, false);
-         })},
-        {"first moved to the scene (float)", Format::binary32,
-         far_camera_cases([](const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards) {
-             return met_by_floats(scene, towards, true);
-         })}};
+        {"host", Format::binary32, far_camera_cases(met_by_fast_path)},
+        {"first moved to the scene (float)", Format::binary32, far_camera_cases(met_from_nearby)}};
     const std::string because = "the eye and the direction are rounded to 2^-24 (2^-53 in double) of "
                                 "the distance, and so are the differences between the eye and a vertex";
     axis.limits = {{"ref", 7e12, [](double x) { return bound_of_far_camera(Format::binary64, x); }, 6e13,

@@ -1,7 +1,7 @@
 // A field of view that is narrow, or nearly half the world.
 
 #include "extremes/axes/axes.h"
-#include "extremes/camera_case.h"
+#include "extremes/camera/camera_case.h"
 
 #include <cmath>
 #include <numbers>
