@@ -101,6 +101,7 @@ Axis sphere_floor_axis()
     axis.ordinary = 10;
     axis.logarithmic = true;
     axis.values = powers_of_ten(1, 16, 0.5);
+    axis.most_cases = 50'000; // a scene and its tree each
     axis.methods = methods_of_two_rays(sphere_over_sphere);
     const std::string because =
         "near the floor coordinates and distances from its centre are rounded to 2^-24 (2^-53 in "

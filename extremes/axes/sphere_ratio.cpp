@@ -97,6 +97,7 @@ Axis sphere_ratio_axis()
     axis.ordinary = 1;
     axis.logarithmic = true;
     axis.values = powers_of_ten(0, 16, 0.5);
+    axis.most_cases = 50'000; // a scene and its tree each
     axis.methods = methods_of_two_rays(small_beside_large);
     const std::string because =
         "the centre of the small sphere, the eye and the start of the second ray "
