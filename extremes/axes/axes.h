@@ -6,17 +6,21 @@
 
 namespace extremes {
 
-Axis critical_angle_axis();
-Axis fov_narrow_axis();
-Axis fov_wide_axis();
-Axis ior_axis();
-Axis ior_near_1_axis();
-
 Axis scale_axis();
 Axis distance_axis();
+Axis far_camera_axis();
+Axis far_light_axis();
 Axis sliver_axis();
+Axis sphere_ratio_axis();
+Axis sphere_floor_axis();
+Axis near_surface_axis();
 Axis grazing_axis();
 Axis grazing_hit_axis();
 Axis gap_axis();
+Axis ior_near_1_axis();
+Axis ior_axis();
+Axis critical_angle_axis();
+Axis fov_narrow_axis();
+Axis fov_wide_axis();
 
 } // namespace extremes

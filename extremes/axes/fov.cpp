@@ -1,7 +1,7 @@
 // A field of view that is narrow, or nearly half the world.
 
 #include "extremes/axes/axes.h"
-#include "extremes/camera_case.h"
+#include "extremes/camera/camera_case.h"
 
 #include <cmath>
 #include <numbers>
@@ -52,9 +52,9 @@ Axis fov_narrow_axis()
     const std::string because = "directions are unit vectors, whose coordinates are rounded to 2^-24 "
                                 "(2^-53 in double): that is a "
                                 "fraction of a pixel which grows in proportion to 1 / field of view";
-    axis.limits = {{"ref", 1e-9, [](double x) { return bound_of_narrow(Format::binary64, x); }, 5e-11,
+    axis.limits = {{"ref", 3e-10, [](double x) { return bound_of_narrow(Format::binary64, x); }, 3e-11,
                     Failure::inaccurate, because},
-                   {"host", 0.2, [](double x) { return bound_of_narrow(Format::binary32, x); }, 0.02,
+                   {"host", 0.16, [](double x) { return bound_of_narrow(Format::binary32, x); }, 0.015,
                     Failure::inaccurate, because}};
     return axis;
 }
@@ -72,9 +72,9 @@ Axis fov_wide_axis()
     const std::string because =
         "at the edge of the picture the cosine to the viewing direction is half the parameter (in "
         "radians), and it is a sum of numbers of size 1 that are rounded to 2^-24 (2^-53 in double)";
-    axis.limits = {{"ref", 1e-9, [](double x) { return bound_of_wide(Format::binary64, x); }, 5e-11,
+    axis.limits = {{"ref", 9e-10, [](double x) { return bound_of_wide(Format::binary64, x); }, 6e-11,
                     Failure::inaccurate, because},
-                   {"host", 0.5, [](double x) { return bound_of_wide(Format::binary32, x); }, 0.03,
+                   {"host", 0.42, [](double x) { return bound_of_wide(Format::binary32, x); }, 0.03,
                     Failure::inaccurate, because}};
     return axis;
 }

@@ -1,0 +1,25 @@
+#pragma once
+
+// What rays from the eye of a scene meet, on both wings.
+
+#include "scenes/scene.h"
+
+#include <optional>
+#include <vector>
+
+namespace extremes {
+
+/// The points that rays meet; none where a ray meets nothing.
+using MetPoints = std::vector<std::optional<scenes::Vec3>>;
+
+/// Computes what the rays from the eye in the unit directions `towards` meet.
+using EyeTracer = MetPoints (*)(const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards);
+
+MetPoints met_by_reference(const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards);
+MetPoints met_by_fast_path(const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards);
+
+/// The fast path, but the origin of each ray is moved along it to the scene, in double, before it is
+/// rounded.
+MetPoints met_from_nearby(const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards);
+
+} // namespace extremes
