@@ -7,6 +7,7 @@
 #include "extremes/tally.h"
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct Method {
     /// draw the same cases from the same `random`. Called from several threads at once.
     std::function<void(double parameter, Random& random, int cases, Tally& tally)> run;
 };
+
+/// Limit::beyond where no failure is found as far as one can go.
+constexpr double no_failure = std::numeric_limits<double>::quiet_NaN();
 
 /// How far a method is safe, and what fails first beyond. Tests hold both sides.
 struct Limit {

@@ -97,13 +97,14 @@ Json json_of(const WalkedAxis& walked)
     for (const WalkedAxis::Of& of : walked.methods) json["methods"].push_back(json_of(axis, of));
     for (const Limit& limit : axis.limits)
         if (const WalkedAxis::Of* of = method_of(walked, limit.method); of != nullptr)
-            json["limits"].push_back({{"method", limit.method},
-                                      {"safe", limit.safe},
-                                      {"beyond", limit.beyond},
-                                      {"failure", name(limit.failure)},
-                                      {"because", limit.because},
-                                      {"bound", bound_curve(axis, limit)},
-                                      {"contradiction", contradiction(axis, limit, of->points)}});
+            json["limits"].push_back(
+                {{"method", limit.method},
+                 {"safe", limit.safe},
+                 {"beyond", std::isnan(limit.beyond) ? Json(nullptr) : Json(limit.beyond)},
+                 {"failure", name(limit.failure)},
+                 {"because", limit.because},
+                 {"bound", bound_curve(axis, limit)},
+                 {"contradiction", contradiction(axis, limit, of->points)}});
     return json;
 }
 

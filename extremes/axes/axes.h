@@ -11,6 +11,7 @@ Axis distance_axis();
 Axis far_camera_axis();
 Axis far_light_axis();
 Axis sliver_axis();
+Axis area_axis();
 Axis sphere_ratio_axis();
 Axis sphere_floor_axis();
 Axis near_surface_axis();
@@ -22,5 +23,6 @@ Axis ior_axis();
 Axis critical_angle_axis();
 Axis fov_narrow_axis();
 Axis fov_wide_axis();
+Axis samples_axis();
 
 } // namespace extremes

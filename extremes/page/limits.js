@@ -9,7 +9,7 @@ function addLimits() {
     const bounds = (limit.bound ?? []).map(b => b[1]).filter(finite);
     return element("tr", {}, element("td", {}, element("a", { href: "#" + idOf(axis) }, axis.name ?? "")), element("td", {}, limit.method ?? ""),
       element("td", { class: "n" }, limitWords(axis, limit)), element("td", { class: "n" }, bounds.length ? number(Math.max(...bounds), 2) : none),
-      element("td", {}, `${limit.failure ?? ""} at ${number(limit.beyond)}`), element("td", {}, limit.because ?? ""));
+      element("td", {}, finite(limit.beyond) ? `${limit.failure ?? ""} at ${number(limit.beyond)}` : "no failure found"), element("td", {}, limit.because ?? ""));
   });
   byId("limits").append(element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)));
 }
