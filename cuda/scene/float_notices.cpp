@@ -12,7 +12,10 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 
 namespace fast {
 namespace {
@@ -98,6 +101,54 @@ void add_narrow_gaps(std::vector<std::string>& notices, const scenes::Scene& sce
              "passes between them is lost");
 }
 
+std::string short_number(double number)
+{
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", number);
+    return text.data();
+}
+
+// The limits of docs/extremes.md in single precision: up to there no result is wrong by more than 1%.
+constexpr double farthest_eye = 1.1e4;    // axis far-camera: in diagonals from the middle of the scene
+constexpr double narrowest_view = 0.16;   // axis fov-narrow: in degrees, of a picture of 64 pixels
+constexpr double least_missing = 0.42;    // axis fov-wide: to 180 degrees
+constexpr double largest_ior = 250;       // axis ior; its reciprocal, too
+constexpr double nearest_to_air = 2.5e-5; // axis ior-near-1: |ior - 1|
+
+/// Says so if the rays of the camera cannot be aimed.
+void add_camera(std::vector<std::string>& notices, const scenes::Camera& camera,
+                const scenes::Bounds& box, double diagonal)
+{
+    const double distance =
+        glm::length(camera.eye - (0.5 * box.min + 0.5 * box.max)) / std::max(diagonal, 1e-300);
+    if (distance > farthest_eye)
+        notices.push_back(
+            "the eye is " + short_number(distance) +
+            " diagonals away from the middle of the scene: single precision aims rays from "
+            "more than " +
+            short_number(farthest_eye) +
+            " with an error of more than 1% of the scene (--device ref does not)");
+    const double degrees = camera.fov * 180 / std::numbers::pi;
+    if (degrees < narrowest_view || degrees > 180 - least_missing)
+        notices.push_back("a field of view of " + short_number(degrees) +
+                          " degrees: in single precision the directions of rays may be off by more than "
+                          "1% of a pixel (--device ref is more precise)");
+}
+
+/// Says so if Fresnel's equations lose too many digits.
+void add_glass(std::vector<std::string>& notices, const scenes::Scene& scene)
+{
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const auto* glass = std::get_if<scenes::Glass>(&scene.materials[i]);
+        if (glass == nullptr || glass->ior == 1.0) continue;
+        const double ior = glass->ior;
+        if (ior > largest_ior || ior < 1 / largest_ior || std::abs(ior - 1) < nearest_to_air)
+            notices.push_back("material \"" + scene.material_names[i] +
+                              "\": an index of refraction of " + short_number(ior) +
+                              " is beyond what single precision holds to 1% (--device ref does)");
+    }
+}
+
 /// Says so if `position` is so close to a surface that its height is not known: it is rounded by
 /// sqrt(3) u D / 2 at most, D the diagonal of the scene, and so is the surface.
 void add_end(std::vector<std::string>& notices, const scenes::Scene& scene, double diagonal,
@@ -148,7 +199,11 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
     if (!box) return notices;
     const double diagonal = glm::length(box->max - box->min);
     add_narrow_gaps(notices, scene, place, diagonal);
-    if (scene.camera) add_end(notices, scene, diagonal, "the eye", scene.camera->eye);
+    add_glass(notices, scene);
+    if (scene.camera) {
+        add_end(notices, scene, diagonal, "the eye", scene.camera->eye);
+        add_camera(notices, *scene.camera, *box, diagonal);
+    }
     scenes::for_each_light_position(scene, [&](const scenes::Vec3& position, const std::string& name) {
         add_end(notices, scene, diagonal, name, position);
     });

@@ -80,6 +80,50 @@ TEST(FloatNotices, NameEndsWhoseHeightFloatsCannotResolve)
 }
 
 // A pane of glass over the ground, at a distance.
+TEST(FloatNotices, NameAnEyeTooFarAway)
+{
+    scenes::Scene scene = ground();
+    scenes::Camera camera{
+        Vec3(0, 0, 2e4), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), scenes::FovAxis::horizontal, 1.0};
+    scene.camera = camera; // the diagonal is 2.8
+    EXPECT_TRUE(fast::float_notices(scene).empty());
+    scene.camera->eye = Vec3(0, 0, 2e5);
+    ASSERT_EQ(fast::float_notices(scene).size(), 1u);
+    EXPECT_TRUE(fast::float_notices(scene)[0].starts_with("the eye is 7.07e+04 diagonals away"))
+        << fast::float_notices(scene)[0];
+}
+
+TEST(FloatNotices, NameFieldsOfViewBeyondTheLimits)
+{
+    scenes::Scene scene = ground();
+    scene.camera = scenes::Camera{
+        Vec3(0, 0, 2), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), scenes::FovAxis::horizontal, 1.0};
+    for (const double degrees : {0.2, 90.0, 179.5}) {
+        scene.camera->fov = degrees * 3.14159265358979 / 180;
+        EXPECT_TRUE(fast::float_notices(scene).empty()) << degrees;
+    }
+    for (const double degrees : {0.1, 179.7}) {
+        scene.camera->fov = degrees * 3.14159265358979 / 180;
+        ASSERT_EQ(fast::float_notices(scene).size(), 1u) << degrees;
+        EXPECT_TRUE(fast::float_notices(scene)[0].starts_with("a field of view of"));
+    }
+}
+
+TEST(FloatNotices, NameGlassBeyondTheLimits)
+{
+    scenes::Scene scene = ground();
+    const auto notices_for = [&](double ior) {
+        scene.materials[1] = scenes::Glass{scenes::Rgb(1.0), scenes::Rgb(1.0), ior};
+        return fast::float_notices(scene);
+    };
+    for (const double ior : {1.0, 1.0001, 1.5, 0.5, 200.0, 0.005})
+        EXPECT_TRUE(notices_for(ior).empty()) << ior;
+    for (const double ior : {1.00001, 0.99999, 300.0, 0.003}) {
+        ASSERT_EQ(notices_for(ior).size(), 1u) << ior;
+        EXPECT_TRUE(notices_for(ior)[0].starts_with("material \"dust\": an index of refraction of"));
+    }
+}
+
 TEST(FloatNotices, NameGlassTooCloseToAnotherSurface)
 {
     const auto notices = [](double gap) {
