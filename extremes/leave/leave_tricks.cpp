@@ -21,6 +21,20 @@ namespace {
 
 enum class Trick { fixed, relative, ulps, exclude, determinant };
 
+/// The determinant of [Moeller and Trumbore 1997]: the volume of the direction and the two edges.
+template <class Vec3>
+auto determinant(const Vec3& v0, const Vec3& v1, const Vec3& v2, const Vec3& direction)
+{
+    return glm::dot(v1 - v0, glm::cross(direction, v2 - v0));
+}
+
+/// What a ray does not hit: a primitive that it leaves, and triangles with a small determinant.
+template <class F>
+struct Left {
+    std::optional<std::uint32_t> primitive;
+    F least_determinant = 0;
+};
+
 /// A hit on a primitive of a scene in the format F.
 template <class F>
 struct TrickHit {
@@ -38,18 +52,23 @@ public:
     using Vec3 = glm::dvec3;
 
     explicit RoundedScene(const scenes::Scene& scene) : scene_(&scene) {}
-    /// The first hit. `leaves`: the primitive on which the ray starts and that is not to be hit there.
+    /// The first hit.
     [[nodiscard]] std::optional<TrickHit<double>> intersect(const Vec3& origin, const Vec3& direction,
-                                                            std::optional<std::uint32_t> leaves) const
+                                                            const Left<double>& left) const
     {
         ref::Ray ray{origin, direction};
-        const std::array<std::uint32_t, 1> on{leaves.value_or(0)};
-        if (leaves) ray.on = on;
+        const std::array<std::uint32_t, 1> on{left.primitive.value_or(0)};
+        if (left.primitive) ray.on = on;
         const ref::ShearedRay sheared(ray);
         std::optional<ref::Hit> closest;
-        for (std::uint32_t i = 0; i < primitive_count(*scene_); ++i)
+        for (std::uint32_t i = 0; i < primitive_count(*scene_); ++i) {
+            if (i < scene_->triangles.size() &&
+                std::abs(determinant(corner(i, 0), corner(i, 1), corner(i, 2), direction)) <
+                    left.least_determinant)
+                continue;
             if (const auto hit = ref::intersect_primitive(*scene_, ray, sheared, i))
                 if (!closest || hit->t < closest->t) closest = hit;
+        }
         if (!closest) return std::nullopt;
         return TrickHit<double>{closest->t, closest->primitive};
     }
@@ -76,7 +95,7 @@ public:
             spheres_.push_back({Vec3(s.center), static_cast<float>(s.radius)});
     }
     [[nodiscard]] std::optional<TrickHit<float>> intersect(const Vec3& origin, const Vec3& direction,
-                                                           std::optional<std::uint32_t> leaves) const
+                                                           const Left<float>& left) const
     {
         constexpr float infinity = std::numeric_limits<float>::infinity();
         const fast::Ray ray{origin, infinity, direction};
@@ -87,11 +106,14 @@ public:
         };
         fast::Hit hit{};
         for (std::uint32_t i = 0; i < triangles_.size(); ++i)
-            if (leaves != i && fast::intersect_triangle(sheared, triangles_[i], infinity, hit))
+            if (left.primitive != i &&
+                std::abs(determinant(corner(i, 0), corner(i, 1), corner(i, 2), direction)) >=
+                    left.least_determinant &&
+                fast::intersect_triangle(sheared, triangles_[i], infinity, hit))
                 add(hit.t, i);
         for (std::uint32_t i = 0; i < spheres_.size(); ++i) {
             const auto primitive = static_cast<std::uint32_t>(triangles_.size()) + i;
-            if (leaves == primitive) // one root is 0, the other is this
+            if (left.primitive == primitive) // one root is 0, the other is this
                 add(-2 * glm::dot(origin - spheres_[i].center, direction) /
                         glm::dot(direction, direction),
                     primitive);
@@ -155,7 +177,9 @@ FoundOnward found_by_trick(const RoundedScene<F>& scene, std::size_t triangles, 
     FoundOnward found;
     const Vec3 origin(ray.origin);
     const Vec3 direction = glm::normalize(Vec3(ray.direction));
-    const auto first = scene.intersect(origin, direction, std::nullopt);
+    Left<F> left;
+    if (trick == Trick::determinant) left.least_determinant = epsilon;
+    const auto first = scene.intersect(origin, direction, left);
     if (!first) return found;
     found.first = first->primitive;
     const Vec3 onward(ray.onward);
@@ -169,8 +193,8 @@ FoundOnward found_by_trick(const RoundedScene<F>& scene, std::size_t triangles, 
         const Vec3 n = facing_normal(scene, triangles, first->primitive, start, onward);
         for (int axis = 0; axis < 3; ++axis) start[axis] = moved_by_ulps(start[axis], n[axis]);
     }
-    const auto next = scene.intersect(
-        start, onward, trick == Trick::exclude ? std::optional(first->primitive) : std::nullopt);
+    if (trick == Trick::exclude || trick == Trick::determinant) left.primitive = first->primitive;
+    const auto next = scene.intersect(start, onward, left);
     if (!next) return found;
     found.second = next->primitive;
     const F distance = next->t + moved;
@@ -206,6 +230,7 @@ void add_tricks(std::vector<Method>& methods, MakeLeaveCase make)
     methods.push_back(trick_method<F>("relative 1e-3", make, Trick::relative, 1e-3));
     methods.push_back(trick_method<F>("ulps", make, Trick::ulps));
     methods.push_back(trick_method<F>("exclude", make, Trick::exclude));
+    methods.push_back(trick_method<F>("determinant 1e-6", make, Trick::determinant, 1e-6));
 }
 
 } // namespace
