@@ -1,10 +1,42 @@
 #include "extremes/leave/leave_case.h"
 
+#include "scenes/largest_component.h"
+
 #include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace extremes {
 
 namespace {
+
+scenes::Vec3 rounded(const ExactVec3& v)
+{
+    return {v.x.convert_to<double>(), v.y.convert_to<double>(), v.z.convert_to<double>()};
+}
+
+/// Whether it is certain in doubles that a line along `d` passes outside a triangle with the corners a,
+/// b, c relative to a point of the line: two signed volumes differ in sign, and each is far larger than
+/// its error, which is less than 20 roundings. Saves most of the exact arithmetic.
+bool certainly_outside(scenes::Vec3 a, scenes::Vec3 b, scenes::Vec3 c, const scenes::Vec3& d)
+{
+    const double largest = std::max(
+        {scenes::largest_component(a), scenes::largest_component(b), scenes::largest_component(c)});
+    if (!(largest > 0.0) || !std::isfinite(largest)) return false;
+    for (scenes::Vec3* v : {&a, &b, &c}) *v /= largest; // any unit of length
+    const auto sign = [&](const scenes::Vec3& p, const scenes::Vec3& q) {
+        const double volume = glm::dot(d, glm::cross(p, q));
+        const double error = 1e-13 * glm::length(d) * glm::length(p) * glm::length(q);
+        if (!(error > 1e-100)) return 0; // nothing can be told, or it underflowed
+        return volume > error ? 1 : volume < -error ? -1 : 0;
+    };
+    const int u = sign(b, c);
+    const int v = sign(c, a);
+    if (u * v < 0) return true;
+    const int w = sign(a, b);
+    return u * w < 0 || v * w < 0;
+}
 
 /// The t at which the line from `origin` along `direction` crosses the plane of the triangle; none if it
 /// passes outside the triangle or parallel to it.
@@ -14,6 +46,7 @@ std::optional<Exact> triangle_crossing(const scenes::Triangle& triangle, const E
     const ExactVec3 a = ExactVec3(triangle.vertices[0]) - origin;
     const ExactVec3 b = ExactVec3(triangle.vertices[1]) - origin;
     const ExactVec3 c = ExactVec3(triangle.vertices[2]) - origin;
+    if (certainly_outside(rounded(a), rounded(b), rounded(c), rounded(direction))) return std::nullopt;
     // Signed volumes of the line with each edge: of one sign where it passes inside.
     const ExactVec3 bc = cross(b, c);
     const Exact u = dot(direction, bc);
