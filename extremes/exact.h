@@ -1,7 +1,7 @@
 #pragma once
 
-// Arithmetic for truths: a hundred decimal digits, with a range of exponents that no double leaves. A
-// double converts to it exactly, and a few operations err by less than 1e-90.
+// Arithmetic for truths: sixty decimal digits, with a range of exponents that no double leaves. A
+// double converts to it exactly, and a few operations err by less than 1e-55.
 
 #include "scenes/scene.h"
 
@@ -11,7 +11,7 @@
 
 namespace extremes {
 
-using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>,
+using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>,
                                             boost::multiprecision::et_off>;
 
 struct ExactVec3 {

@@ -74,7 +74,7 @@ Axis critical_angle_axis()
         "precision. "
         "The methods with the word \"transmitted\" have the error of the transmitted share relative to "
         "itself; light that passes where there is total reflection is a leak. The truth is Snell's law "
-        "and Fresnel's equations with a hundred digits.";
+        "and Fresnel's equations with sixty digits.";
     axis.ordinary = 0.1;
     axis.logarithmic = true;
     axis.values = powers_of_ten(-18, -1, 0.5);

@@ -32,7 +32,7 @@ Axis common_fov_axis()
         "shows; on the way back, for a direction in or near the picture, the distance in pixels between "
         "its true point and the point or pixel that is found; and the relative error of the density per "
         "solid angle. In a picture of n pixels the errors in pixels are n/64 times as large. The truth "
-        "is computed with a hundred digits, with axes that are exactly at right angles.";
+        "is computed with sixty digits, with axes that are exactly at right angles.";
     axis.logarithmic = true;
     return axis;
 }

@@ -60,7 +60,7 @@ Axis ior_axis()
         "are within the critical angle, and none is close to it. The error is the largest of three: the "
         "share of the light that is reflected, relative to all of it; the angle between the refracted "
         "ray and the true one; and the factor of the radiance, relative to itself. The truth is Snell's "
-        "law and Fresnel's equations with a hundred digits.";
+        "law and Fresnel's equations with sixty digits.";
     axis.ordinary = 1.5;
     axis.logarithmic = true;
     for (const double power : powers_of_ten(-20, 20, 0.5)) axis.values.push_back(1.5 * power);

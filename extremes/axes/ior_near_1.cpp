@@ -69,7 +69,7 @@ Axis ior_near_1_axis()
         "grazing incidence. The error is the largest of three: the share of the light that is "
         "reflected, relative to all of it; the angle between the refracted ray and the true one; and "
         "the factor of the radiance, relative to itself. The truth is Snell's law and Fresnel's "
-        "equations with a hundred digits. Large errors occur near grazing incidence only, within an "
+        "equations with sixty digits. Large errors occur near grazing incidence only, within an "
         "angle of the square root of the parameter from the surface.";
     axis.ordinary = std::pow(10.0, -0.5);
     axis.logarithmic = true;

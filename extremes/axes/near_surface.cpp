@@ -122,7 +122,7 @@ Axis near_surface_axis()
         "The eye is over the middle of a triangle. Three of four rays go down, at up to 72 degrees from "
         "the normal; the error is the distance between the point that is met and the true one, relative "
         "to the height. A ray down that meets nothing has missed; a ray up that meets the triangle is a "
-        "self-hit. The truth is computed with a hundred digits, for an eye that is not rounded.";
+        "self-hit. The truth is computed with sixty digits, for an eye that is not rounded.";
     axis.ordinary = 0.05;
     axis.logarithmic = true;
     axis.values = powers_of_ten(-18, -1.5, 0.5);

@@ -103,7 +103,7 @@ std::optional<Onward> exact_onward(const scenes::Scene& scene, const LeaveRay& r
     if (!first || first->primitive != ray.start) return std::nullopt;
     const ExactVec3 point = origin + first->distance * direction;
     const ExactVec3 onward(ray.onward);
-    // The start itself is crossed at 0, up to the rounding of 100 digits, and a sphere once more.
+    // The start itself is crossed at 0, up to the rounding of 60 digits, and a sphere once more.
     Exact largest = 0;
     std::optional<Exact> far;
     for_each_crossing(scene, ray.start, point, onward, [&](const Exact& t) {
