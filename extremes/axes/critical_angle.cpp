@@ -92,6 +92,12 @@ Axis critical_angle_axis()
          1e-15, Failure::inaccurate, because},
         {"host transmitted", 4e-5, [](double x) { return bound_of_transmission(Format::binary32, x); },
          1e-6, Failure::inaccurate, because}};
+    axis.derivation =
+        "at a distance d from the critical angle the square of the cosine of refraction is 2 "
+        "sqrt(n^2 - 1) d to first order, with an error D of 12 to 29 u. The transmitted share has "
+        "the cosine as a factor, so its relative error is half of D over the square, plus 10% for "
+        "terms of second order. The reflected share never errs by more than 33 sqrt(u): the roots "
+        "of two numbers differ by no more than the root of their difference.";
     return axis;
 }
 

@@ -101,6 +101,12 @@ Axis far_camera_axis()
                     Failure::inaccurate, because},
                    {"host", 1.1e4, [](double x) { return bound_of_far_camera(Format::binary32, x); },
                     1e5, Failure::inaccurate, because}};
+    axis.derivation =
+        "at the distance D (in diameters) the direction is off by u D across the ray, and the eye "
+        "by as much in single precision. A vertex at the distance D is sheared with an error "
+        "below 3.3 u D. The rounding of the quotient that gives the distance of a sphere is 12 u "
+        "D along the ray. With the cosines of the surfaces that makes about 12 u D (14 u D in "
+        "single precision).";
     return axis;
 }
 

@@ -127,8 +127,8 @@ Axis far_light_axis()
         "The scene is a square floor with a sphere over it, lit by a point light. Its intensity grows "
         "with the square of the distance, so that the irradiance stays near 1. The error is that of the "
         "irradiance at a random point of the floor, relative to itself; at a point in the shadow of the "
-        "sphere, light is a leak, and elsewhere no light is a miss. The truth is I cos / d^2 with a "
-        "hundred digits.";
+        "sphere, light is a leak, and elsewhere no light is a miss. The truth is I cos / d^2 with sixty "
+        "digits.";
     axis.ordinary = 1;
     axis.logarithmic = true;
     axis.values = powers_of_ten(0, 20, 0.5);
@@ -144,6 +144,12 @@ Axis far_light_axis()
                     1.02e15, Failure::refused, because},
                    {"host", 9.9e14, [](double x) { return bound_of_far_light(Format::binary32, x); },
                     1.02e15, Failure::refused, because}};
+    axis.derivation =
+        "the irradiance is I cos / d^2. The vector to the light has a relative error below 2 u "
+        "from a distance of 80 on, the square and the division add 8 u, and the cosine has an "
+        "error of about 22 u relative to the least cosine. The bound does not grow with the "
+        "distance. The program refuses an intensity above 1e30, and the intensity here is the "
+        "square of the distance.";
     return axis;
 }
 

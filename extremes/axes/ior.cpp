@@ -76,6 +76,12 @@ Axis ior_axis()
         {"ref", 1 / 5e6, bound_of(Format::binary64), 1 / 1.2e7, Failure::inaccurate, because},
         {"host", 250, bound_of(Format::binary32), 500, Failure::inaccurate, because},
         {"host", 1 / 250.0, bound_of(Format::binary32), 1 / 500.0, Failure::inaccurate, because}};
+    axis.derivation =
+        "let n be the larger of the index and its reciprocal, and D the error of the square of "
+        "the cosine of refraction: on the denser side it is a rounding of 1 - cos^2 multiplied by "
+        "n^2, so about 3 u n^2 (2 u n^2 in single precision). The derivative of the reflectance "
+        "by this square is below 1/2 from n = 1.4 on, and that of the cosine is below 1: the "
+        "error is below 1.03 D, plus a few u.";
     return axis;
 }
 

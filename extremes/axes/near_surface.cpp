@@ -135,6 +135,11 @@ Axis near_surface_axis()
                     1.2e-14, Failure::inaccurate, because},
                    {"host", 2.5e-4, [](double x) { return bound_of_near_eye(Format::binary32, x); },
                     6e-6, Failure::inaccurate, because}};
+    axis.derivation =
+        "the vertices are sheared with an error of 6.1 u, which moves the meeting point by as "
+        "much over the cosine; the position from its weights adds 8 u, the eye 0.7 u (1 + 1/cos), "
+        "and in single precision the vertices as much again. Relative to the height h that is 37 "
+        "u / h, or 40 u / h in single precision.";
     return axis;
 }
 

@@ -111,6 +111,11 @@ Axis sphere_floor_axis()
                     3e12, Failure::inaccurate, because},
                    {"host", 1000, [](double x) { return bound_of_sphere_floor(Format::binary32, x); },
                     2500, Failure::inaccurate, because}};
+    axis.derivation =
+        "let R be the radius of the floor. A hit is within 22 u of twice R of the floor, and "
+        "moves along it by up to 37 u R; sums with the centre add 10 u R, and the rounding of the "
+        "input 3 u R in single precision. The second ray starts at a clearance of 58 u R (22 u R "
+        "in double). On the small sphere that is at most 100 u R, or 157 u R in single precision.";
     return axis;
 }
 

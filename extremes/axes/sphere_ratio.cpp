@@ -106,6 +106,12 @@ Axis sphere_ratio_axis()
                     8e12, Failure::inaccurate, because},
                    {"host", 1050, [](double x) { return bound_of_sphere_ratio(Format::binary32, x); },
                     1.5e4, Failure::inaccurate, because}};
+    axis.derivation =
+        "let k be the ratio of the radii. Lengths are in radii of the small sphere: the eye, the "
+        "centre and the differences are rounded to u times up to 8 k, the quotient that gives the "
+        "distance to 12 u times 6.5 k, and the ray onward starts at a clearance of 5 u k. The "
+        "displacements across the ray and along it, with the cosines, add up to 135 u k (151 u k "
+        "in single precision).";
     return axis;
 }
 
