@@ -11,7 +11,7 @@ namespace golden {
 
 namespace {
 
-constexpr double level = 1e-6; // the share of right pictures that get a diagnosis is smaller
+constexpr double diagnosis_level = 1e-6; // the share of right pictures that get a diagnosis is smaller
 
 bool passes(const std::vector<images::Image>& pictures, const JudgePictures& judge)
 {
@@ -76,7 +76,7 @@ std::string diagnose(const Golden& golden, const Comparison& comparison,
                      const JudgePictures& judge)
 {
     const bool wrong = comparison.verdict == Verdict::fail ||
-                       (comparison.verdict == Verdict::inconclusive && comparison.p < level);
+                       (comparison.verdict == Verdict::inconclusive && comparison.p < diagnosis_level);
     if (!wrong || pictures.empty()) return "";
     for (const Fault& fault : usual_faults())
         if (const auto without = undone(pictures, fault, golden.mean);

@@ -127,7 +127,7 @@ std::vector<Fault> usual_faults()
                                     std::pair(std::array{0, 2, 1}, "with green and blue exchanged"),
                                     std::pair(std::array{1, 2, 0}, "in the order blue, red, green"),
                                     std::pair(std::array{2, 0, 1}, "in the order green, blue, red")})
-        faults.push_back({is, [order](const Image& picture, const Image&) {
+        faults.push_back({is, [order = order](const Image& picture, const Image&) {
                               Image result = picture;
                               for (Rgb& pixel : result.pixels)
                                   pixel = {pixel[order[0]], pixel[order[1]], pixel[order[2]]};

@@ -11,7 +11,7 @@ namespace extremes {
 
 namespace {
 
-scenes::Vec3 rounded(const ExactVec3& v)
+scenes::Vec3 in_doubles(const ExactVec3& v)
 {
     return {v.x.convert_to<double>(), v.y.convert_to<double>(), v.z.convert_to<double>()};
 }
@@ -46,7 +46,8 @@ std::optional<Exact> triangle_crossing(const scenes::Triangle& triangle, const E
     const ExactVec3 a = ExactVec3(triangle.vertices[0]) - origin;
     const ExactVec3 b = ExactVec3(triangle.vertices[1]) - origin;
     const ExactVec3 c = ExactVec3(triangle.vertices[2]) - origin;
-    if (certainly_outside(rounded(a), rounded(b), rounded(c), rounded(direction))) return std::nullopt;
+    if (certainly_outside(in_doubles(a), in_doubles(b), in_doubles(c), in_doubles(direction)))
+        return std::nullopt;
     // Signed volumes of the line with each edge: of one sign where it passes inside.
     const ExactVec3 bc = cross(b, c);
     const Exact u = dot(direction, bc);
