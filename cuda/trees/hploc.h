@@ -105,14 +105,17 @@ private:
         return kept;
     }
 
-    /// The neighbour whose common box with cluster i is the smallest. Of several it takes the first
-    /// pair, ordered by both numbers. So the best pair of all is mutual, and every round merges
-    /// something.
+    /// The neighbour whose common box with cluster i is the smallest. Of several it takes the other half
+    /// of the pair (2 k, 2 k + 1) that i belongs to, if both boxes are equal, or else the first pair,
+    /// ordered by both numbers. So the best pair of all is mutual, and every round merges something; and
+    /// a round merges half of many equal boxes, so that they do not give a long chain of nodes.
     [[nodiscard]] HD std::uint32_t nearest_of(const ClusterList& list, std::uint32_t i) const
     {
         const std::uint32_t begin = i < search_radius ? 0 : i - search_radius;
         const std::uint32_t end = i + search_radius < list.count ? i + search_radius + 1 : list.count;
         const Aabb box = clusters[list.first + i].box;
+        const std::uint32_t paired = i ^ 1;
+        if (paired < list.count && same_box(box, clusters[list.first + paired].box)) return paired;
         std::uint32_t best = i == begin ? i + 1 : begin;
         float smallest = area_of_both(box, clusters[list.first + best].box);
         for (std::uint32_t j = best + 1; j < end; ++j) {
@@ -124,6 +127,11 @@ private:
             }
         }
         return best;
+    }
+
+    [[nodiscard]] HD static bool same_box(const Aabb& a, const Aabb& b)
+    {
+        return a.lower == b.lower && a.upper == b.upper;
     }
 
     /// The area of the union; infinity instead of NaN (0 * infinity), so that any two areas can be

@@ -23,6 +23,10 @@ Axis ior_axis();
 Axis critical_angle_axis();
 Axis fov_narrow_axis();
 Axis fov_wide_axis();
+Axis tree_size_axis();
+Axis coincident_axis();
+Axis key_bits_axis();
+Axis outlier_axis();
 Axis samples_axis();
 
 } // namespace extremes

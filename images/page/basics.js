@@ -11,10 +11,10 @@ const none = "–";
 function number(x, digits = 3) {
   if (!finite(x)) return none;
   if (x === 0) return "0";
-  const rounded = Number(x.toPrecision(digits));
-  const exponent = Math.floor(Math.log10(Math.abs(rounded)));
-  if (exponent < -3 || exponent > 5) return minus((rounded / 10 ** exponent).toFixed(digits - 1)) + "\u00a0×\u00a010" + raised(exponent);
-  return minus(rounded.toFixed(Math.max(0, digits - 1 - exponent)));
+  const [mantissa, power] = x.toExponential(digits - 1).split("e"); // rounded; also the smallest and largest doubles
+  const exponent = Number(power);
+  if (exponent < -3 || exponent > 5) return minus(mantissa) + "\u00a0×\u00a010" + raised(exponent);
+  return minus(Number(x.toPrecision(digits)).toFixed(Math.max(0, digits - 1 - exponent)));
 }
 
 // ---- elements

@@ -21,6 +21,9 @@ namespace {
 
 void check(std::span<const Aabb> boxes)
 {
+    if (boxes.size() > most_primitives)
+        throw std::invalid_argument("a tree may have " + std::to_string(most_primitives) +
+                                    " primitives, not " + std::to_string(boxes.size()));
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         if (is_empty(boxes[i])) reject(i, "its box is empty");
         if (!is_finite(boxes[i].lower) || !is_finite(boxes[i].upper))

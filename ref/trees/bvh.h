@@ -4,6 +4,7 @@
 
 #include "ref/trees/tree.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -17,6 +18,9 @@ enum class Builder {
     sah,      // full sweep of the surface area heuristic, one primitive per leaf
     sah_leaf, // the same with several primitives per leaf where that is expected to be cheaper
 };
+
+/// A tree over more primitives has more nodes than 32 bits can number.
+constexpr std::size_t most_primitives = std::size_t{1} << 31;
 
 /// How to build a tree. A Builder alone is one, too: that of its defaults.
 struct BuildOptions {
@@ -36,7 +40,7 @@ std::vector<std::uint64_t> morton_codes(std::span<const Aabb> boxes, int bits_pe
 
 /// A tree over any number of boxes, also over none. Flat, coincident and point-like boxes are legal.
 /// Throws std::invalid_argument that names the first box that is empty or has a coordinate that is NaN
-/// or infinite, and for leaves of no primitive.
+/// or infinite, for leaves of no primitive, and for more than most_primitives.
 Tree build(std::span<const Aabb> boxes, const BuildOptions& options);
 
 } // namespace ref

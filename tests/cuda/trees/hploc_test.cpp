@@ -152,6 +152,20 @@ TEST(Hploc, SaysHowHighItIs) // nested boxes: each adds a level
     }
 }
 
+TEST(Hploc, MakesNoChainOfEqualBoxes)
+{
+    fast::SerialExecutor serial;
+    for (const std::size_t n : {2u, 33u, 1000u, 1u << 14}) {
+        std::vector<fast::Aabb> boxes(n, {fast::Vec3(0.25f), fast::Vec3(0.5f)});
+        const Built built = cluster(serial, boxes);
+        EXPECT_EQ(violations(built, boxes), Lines()) << n;
+        // Each level of the radix tree halves a list once, which adds an edge; at an odd number one
+        // more may follow. The root merges the last 16 to 32 clusters.
+        const int depth = ref::quality(with_leaves_in_order(built, boxes)).depth;
+        EXPECT_LE(depth, 2 * static_cast<int>(std::bit_width(n - 1))) << n;
+    }
+}
+
 TEST(Hploc, EndsForBoxesThatAreNotLegal)
 {
     fast::SerialExecutor serial;

@@ -148,6 +148,19 @@ std::string message(const scenes::Scene& scene)
     return "";
 }
 
+TEST(Build, RejectsMorePrimitivesThanNodesCanBeNumbered)
+{
+    const Aabb box{Vec3(0), Vec3(1)};
+    // No box but the first exists; the number alone is looked at.
+    const std::span<const Aabb> too_many(&box, ref::most_primitives + 1);
+    for (const Builder builder : builders) try {
+            build(too_many, builder);
+            ADD_FAILURE() << "not refused";
+        } catch (const std::invalid_argument& error) {
+            EXPECT_STREQ(error.what(), "a tree may have 2147483648 primitives, not 2147483649");
+        }
+}
+
 TEST(PrimitiveBounds, RejectsAVertexThatMinAndMaxWouldSwallowAndNamesItsPrimitive)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
