@@ -21,6 +21,7 @@ constexpr double step_in_diagonals = 1024;
 constexpr double coarsest_noticed = 1e-6; // spacing of doubles in diagonals
 constexpr double coarsest_held = 1e-3;
 constexpr double brightest = 1e30; // leaves 8 decades of a float for what sampling multiplies it with
+constexpr double dimmest = 1e-30;  // and as many above 2^-126, below which floats lose digits
 
 bool is_finite(const Vec3& v)
 {
@@ -66,7 +67,9 @@ void check_finite(Scene& scene)
 
 void check_light(const Scene& scene)
 {
+    double largest = 0; // of all light
     const auto check = [&](const Rgb& light, const std::string& what) {
+        largest = std::max(largest, largest_component(light));
         if (!is_finite(light) || largest_component(light) > brightest)
             throw SceneError(scene.name + ": " + what + " of " + say(largest_component(light)) +
                              " is more than the " + say(brightest) + " that a picture can hold");
@@ -81,6 +84,11 @@ void check_light(const Scene& scene)
                                                  : ": an irradiance"));
     });
     if (scene.environment) check(*scene.environment, "the environment: a radiance");
+    // One dim light beside a bright one loses nothing that a picture shows.
+    if (largest > 0 && largest < dimmest)
+        throw SceneError(scene.name + ": the brightest light, " + say(largest) +
+                         " (with the scene about one unit large), is less than the " + say(dimmest) +
+                         " that a picture can hold");
 }
 
 /// The multiple of the step that is nearest to the middle of the box, whose diagonal is in [1, 2).

@@ -18,7 +18,7 @@ namespace scenes {
 /// extent that overflows; for coordinates so far from the origin that neighbouring doubles are more than
 /// 1e-3 diagonals apart (from 1e-6 on there is a notice); and for light above 1e30 (W m^-2 sr^-1,
 /// W m^-2, or, for an intensity, W sr^-1 at the new scale), which a picture of 32-bit floats cannot
-/// hold.
+/// hold, or where all light is below 1e-30.
 Scene placed(Scene scene);
 
 } // namespace scenes

@@ -27,6 +27,9 @@ Axis tree_size_axis();
 Axis coincident_axis();
 Axis key_bits_axis();
 Axis outlier_axis();
+Axis radiance_axis();
+Axis emitter_size_axis();
+Axis albedo_axis();
 Axis samples_axis();
 
 } // namespace extremes

@@ -11,7 +11,7 @@ namespace extremes {
 
 namespace {
 
-constexpr std::uint32_t pairs_of_key_bits = 1u << 11;
+constexpr std::uint32_t pairs_of_key_bits = 1u << 13;
 constexpr double grid_of_centroids = 0x1p52; // centroids are multiples of its reciprocal
 
 /// Points in the unit cube in pairs: of each, both coordinates along every axis are random in an
@@ -90,7 +90,7 @@ Axis key_bits_axis()
     axis.title = "Bits of a Morton code";
     axis.parameter = "distance of neighbours, relative to the scene";
     axis.about =
-        "A case is a tree over 4,098 points in 2,048 pairs. Both points of a pair are random in a "
+        "A case is a tree over 16,386 points in 8,192 pairs. Both points of a pair are random in a "
         "cube, as large as the parameter says, somewhere in the unit cube. The error is the share "
         "of pairs that have the same code though they differ: a tree cannot order them along the "
         "curve, nor separate them by where they are. The sweep has no codes and no error.";
@@ -98,13 +98,13 @@ Axis key_bits_axis()
     axis.logarithmic = true;
     axis.values = powers_of_ten(-12, -1, 0.5);
     axis.values.push_back(1);
-    axis.most_cases = 100;
+    axis.most_cases = 50;
     axis.methods = tree_methods(run_key_bits);
     constexpr double cell30 = 0x1p-10;
     constexpr double cell63 = 0x1p-21;
     const auto limit = [&](const std::string& method, double cell, double widened, const char* bits) {
         axis.limits.push_back(
-            {method, 8 * widened, [widened](double s) { return lost_pairs(s, widened); }, 3 * cell,
+            {method, 6 * widened, [widened](double s) { return lost_pairs(s, widened); }, 3 * cell,
              Failure::inaccurate,
              std::string("a code has ") + bits +
                  " bits per axis: of pairs as close as 4 cells, 1% have the same code"});

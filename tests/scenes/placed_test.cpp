@@ -204,6 +204,38 @@ TEST(Placed, LightThatNoPictureCanHoldIsRefusedByName)
     EXPECT_NE(message(scene).find("the environment"), std::string::npos) << message(scene);
 }
 
+TEST(Placed, LightTooDimForAPictureIsRefused)
+{
+    const auto message = [](const Scene& scene) -> std::string {
+        try {
+            scenes::placed(scene);
+        } catch (const scenes::SceneError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    // All light together: a dim light beside a bright one changes nothing, and no light at all is legal.
+    const auto lit_by = [](double radiance, double intensity, double sky) {
+        Scene scene = small_scene();
+        scene.materials[1] = scenes::Emission{Rgb(radiance)};
+        scene.point_lights[0].intensity = Rgb(intensity);
+        scene.spot_lights.clear();
+        scene.environment = Rgb(sky);
+        return scene;
+    };
+    EXPECT_EQ(message(lit_by(0, 0, 0)), "");
+    EXPECT_EQ(message(lit_by(1e-31, 1e-300, 1)), "");
+    EXPECT_EQ(message(lit_by(1.1e-30, 0, 0)), "");
+    EXPECT_EQ(message(lit_by(0, 1e-28, 0)), "");
+    for (const Scene& dim : {lit_by(9e-31, 0, 0), lit_by(0, 1e-31, 0), lit_by(0, 0, 9e-31)})
+        EXPECT_NE(message(dim).find("is less than the 1e-30 that a picture can hold"), std::string::npos)
+            << message(dim);
+    // The intensity is that at the new scale: 1e-31 W/sr in a room of 1e-9 m is a bright lamp.
+    Scene small = times_power(lit_by(0, 0, 0), -30);
+    small.point_lights[0].intensity = Rgb(1e-31);
+    EXPECT_EQ(message(small), "");
+}
+
 TEST(Placed, NothingToScaleByStaysAsItIs)
 {
     Scene scene = small_scene();
