@@ -112,6 +112,7 @@ std::string short_number(double number)
 constexpr double farthest_eye = 1.1e4;    // axis far-camera: in diagonals from the middle of the scene
 constexpr double narrowest_view = 0.16;   // axis fov-narrow: in degrees, of a picture of 64 pixels
 constexpr double least_missing = 0.42;    // axis fov-wide: to 180 degrees
+constexpr double smallest_emitter = 3e-5; // axis emitter-size: in diagonals
 constexpr double largest_ior = 250;       // axis ior; its reciprocal, too
 constexpr double nearest_to_air = 2.5e-5; // axis ior-near-1: |ior - 1|
 
@@ -171,6 +172,9 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
     const Placement place = placement_of(scene);
     Count collapsed;
     Count small;
+    Count small_emitters;
+    const auto whole = scenes::bounds(scene);
+    const double smallest = whole ? smallest_emitter * glm::length(whole->max - whole->min) : 0.0;
     std::uint32_t primitive = 0;
     for (const scenes::Triangle& triangle : scene.triangles) {
         const auto& v = triangle.vertices;
@@ -181,6 +185,9 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
                 collapsed.add(primitive);
             else if (is_too_small(extent, scenes::largest_component(v[0] - place.origin)))
                 small.add(primitive);
+            else if (extent < smallest &&
+                     std::holds_alternative<scenes::Emission>(scene.materials[triangle.material]))
+                small_emitters.add(primitive);
         }
         ++primitive;
     }
@@ -195,7 +202,10 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
     small.say(notices, scene,
               "are so small for their distance from the centre of the scene that single precision "
               "cannot leave them safely: light to and from them may be wrong");
-    const auto box = scenes::bounds(scene);
+    small_emitters.say(notices, scene,
+                       "emit and are so small that single precision places points on them with an error "
+                       "that may change their light by more than 1%");
+    const auto& box = whole;
     if (!box) return notices;
     const double diagonal = glm::length(box->max - box->min);
     add_narrow_gaps(notices, scene, place, diagonal);

@@ -16,8 +16,9 @@ namespace fast {
 ///   - triangles of glass so close over another surface that a ray which leaves them begins beyond it;
 ///   - an eye or a light that is near a surface, but not on it, at a distance that floats cannot
 ///   resolve;
-///   - an eye so far away, a field of view so narrow or so wide, or an index of refraction so large, so
-///     small or so near 1 that results may be wrong by 1% (docs/extremes.md has the limits).
+///   - an eye so far away, a field of view so narrow or so wide, an emitter so small, or an index of
+///     refraction so large, so small or so near 1 that results may be wrong by 1% (docs/extremes.md has
+///     the limits).
 std::vector<std::string> float_notices(const scenes::Scene& scene);
 
 } // namespace fast

@@ -80,6 +80,18 @@ TEST(FloatNotices, NameEndsWhoseHeightFloatsCannotResolve)
 }
 
 // A pane of glass over the ground, at a distance.
+TEST(FloatNotices, NameEmittersTooSmallToBePlaced)
+{
+    scenes::Scene scene = ground();
+    scene.materials[1] = scenes::Emission{scenes::Rgb(1.0)};
+    scene.triangles.push_back(speck(1e-3));
+    EXPECT_TRUE(fast::float_notices(scene).empty());
+    scene.triangles.push_back(speck(1e-5));
+    ASSERT_EQ(fast::float_notices(scene).size(), 1u);
+    EXPECT_TRUE(fast::float_notices(scene)[0].starts_with(
+        "1 surface(s), first triangle 3 (material \"dust\"), emit and are so small"));
+}
+
 TEST(FloatNotices, NameAnEyeTooFarAway)
 {
     scenes::Scene scene = ground();
