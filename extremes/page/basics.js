@@ -21,7 +21,7 @@ const isMain = method => ["ref", "host", "cuda"].includes(method.name);
 const idOf = axis => "axis-" + String(axis.name).replace(/[^A-Za-z0-9-]/g, "-");
 const power = t => { // a tick: 10^k, or the number itself
   const e = Math.log10(t);
-  return Math.abs(e - Math.round(e)) < 1e-6 && Math.abs(e) > 2 ? "10" + raised(Math.round(e)) : number(t).replace(/\.?0+$/, "") || "0";
+  return Math.abs(e - Math.round(e)) < 1e-6 && Math.abs(e) > 2 ? "10" + raised(Math.round(e)) : String(Number(t.toPrecision(3)));
 };
 
 function addFacts() {
