@@ -15,6 +15,12 @@ namespace extremes {
 
 enum class Format { binary64, binary32 };
 
+/// u: the largest relative error of one rounding to nearest.
+constexpr double unit_roundoff(Format format)
+{
+    return format == Format::binary64 ? 0x1p-53 : 0x1p-24;
+}
+
 /// One way to compute what the axis is about: an algorithm in one number format, or a usual trick.
 /// "ref" and "host" are the reference and the fast path as users run them; "cuda" is the fast path on a
 /// GPU.

@@ -47,6 +47,17 @@ inline Exact length(const ExactVec3& v)
     return sqrt(dot(v, v));
 }
 
+inline scenes::Vec3 in_doubles(const ExactVec3& v)
+{
+    return {v.x.convert_to<double>(), v.y.convert_to<double>(), v.z.convert_to<double>()};
+}
+
+/// `v`, which must not be 0, scaled to unit length and rounded.
+inline scenes::Vec3 rounded_unit(const ExactVec3& v)
+{
+    return in_doubles((1 / length(v)) * v);
+}
+
 /// |computed - truth| / |truth|, rounded to double. `truth` must not be 0.
 inline double relative_error(double computed, const Exact& truth)
 {

@@ -1,20 +1,10 @@
 #include "extremes/point.h"
 
+#include "scenes/short_number.h"
+
 #include <algorithm>
-#include <cstdio>
 
 namespace extremes {
-
-namespace {
-
-std::string short_number(double x)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", x);
-    return text.data();
-}
-
-} // namespace
 
 bool Point::failed() const
 {
@@ -58,14 +48,14 @@ std::string contradiction(const Axis& axis, const Limit& limit, std::span<const 
     const auto [from, to] = std::minmax(axis.ordinary, limit.safe);
     for (const Point& point : points) {
         if (point.parameter < from || point.parameter > to) continue;
-        const std::string where = " at " + short_number(point.parameter);
+        const std::string where = " at " + scenes::short_number(point.parameter);
         for (std::size_t kind = 0; kind < failure_kinds; ++kind)
             if (point.failures.at(kind) > 0)
                 return std::to_string(point.failures.at(kind)) + " of " + std::to_string(point.cases) +
                        " cases fail" + where + ": " + std::string(failure_names.at(kind));
         if (const double bound = limit.bound(point.parameter); !(point.largest <= bound))
-            return "an error of " + short_number(point.largest) + " is above the bound of " +
-                   short_number(bound) + where;
+            return "an error of " + scenes::short_number(point.largest) + " is above the bound of " +
+                   scenes::short_number(bound) + where;
     }
     return "";
 }

@@ -2,22 +2,15 @@
 
 #include "extremes/results.h"
 
+#include "scenes/short_number.h"
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 namespace extremes {
 
 namespace {
 
 using Line = std::vector<std::string>;
-
-std::string three_digits(double x)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", x);
-    return text.data();
-}
 
 /// "leaked at 1e6; refused at 1e-9"
 std::string first_failures_of(const Json& method, double ordinary)
@@ -30,7 +23,7 @@ std::string first_failures_of(const Json& method, double ordinary)
             const double parameter = first.at(side);
             if (parameter == ordinary && side == std::string("above") && !first.at("below").is_null())
                 continue; // said already
-            text += (text.empty() ? "" : "; ") + kind + " at " + three_digits(parameter);
+            text += (text.empty() ? "" : "; ") + kind + " at " + scenes::short_number(parameter);
         }
     }
     return text.empty() ? "none" : text;
@@ -43,12 +36,14 @@ Line line_of(const Json& axis, const Json& method)
     std::string largest = "-";
     for (const Json& point : method.at("points"))
         if (point.at("parameter") == ordinary && point.at("errors").get<std::uint64_t>() > 0) {
-            median = three_digits(point.at("median"));
-            largest = three_digits(point.at("largest"));
+            median = scenes::short_number(point.at("median"));
+            largest = scenes::short_number(point.at("largest"));
         }
     const Json& safe = method.at("safe");
     return {"  " + method.at("name").get<std::string>(), median, largest,
-            safe.is_null() ? "nowhere" : three_digits(safe.at(0)) + " to " + three_digits(safe.at(1)),
+            safe.is_null()
+                ? "nowhere"
+                : scenes::short_number(safe.at(0)) + " to " + scenes::short_number(safe.at(1)),
             first_failures_of(method, ordinary)};
 }
 
@@ -56,7 +51,8 @@ Line line_of(const Json& axis, const Json& method)
 std::string safe_words(const Json& axis, const Json& limit)
 {
     const double safe = limit.at("safe");
-    return (safe < axis.at("ordinary").get<double>() ? "down to " : "up to ") + three_digits(safe);
+    return (safe < axis.at("ordinary").get<double>() ? "down to " : "up to ") +
+           scenes::short_number(safe);
 }
 
 std::string aligned(const std::vector<Line>& lines)
@@ -83,9 +79,9 @@ std::string table(const Json& results)
         text += std::to_string(axis.at("number").get<int>()) + " " + axis.at("name").get<std::string>() +
                 ": " + axis.at("title").get<std::string>() + " (" +
                 axis.at("parameter").get<std::string>() + ")\n";
-        std::vector<Line> lines = {{"  method",
-                                    "median at " + three_digits(axis.at("ordinary").get<double>()),
-                                    "largest", "no failure in", "first failures"}};
+        std::vector<Line> lines = {
+            {"  method", "median at " + scenes::short_number(axis.at("ordinary").get<double>()),
+             "largest", "no failure in", "first failures"}};
         for (const Json& method : axis.at("methods")) lines.push_back(line_of(axis, method));
         text += aligned(lines);
         for (const Json& limit : axis.at("limits")) {
@@ -107,7 +103,7 @@ std::string beyond_words(const Json& limit)
 {
     if (limit.at("beyond").is_null()) return "no failure found";
     return limit.at("failure").get<std::string>() + " at " +
-           three_digits(limit.at("beyond").get<double>());
+           scenes::short_number(limit.at("beyond").get<double>());
 }
 
 /// The largest bound along the way from the ordinary value to the limit.
@@ -115,7 +111,7 @@ std::string largest_bound(const Json& limit)
 {
     double largest = 0.0;
     for (const Json& point : limit.at("bound")) largest = std::max(largest, point.at(1).get<double>());
-    return three_digits(largest);
+    return scenes::short_number(largest);
 }
 
 std::string section(const Json& axis)
@@ -132,7 +128,7 @@ std::string section(const Json& axis)
     if (!axis.at("limits").empty()) text += "\n";
     if (const std::string derivation = axis.at("derivation"); !derivation.empty())
         text += "Derivation: " + derivation + "\n\n";
-    text += "| method | median error at " + three_digits(axis.at("ordinary").get<double>()) +
+    text += "| method | median error at " + scenes::short_number(axis.at("ordinary").get<double>()) +
             " | largest | no failure in | first failures |\n|---|---|---|---|---|\n";
     for (const Json& method : axis.at("methods")) {
         std::string row = "|";

@@ -4,6 +4,7 @@
 #include "scenes/for_each_light.h"
 #include "scenes/largest_component.h"
 #include "scenes/read_scene.h"
+#include "scenes/short_number.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace scenes {
@@ -26,14 +26,6 @@ constexpr double dimmest = 1e-30;  // and as many above 2^-126, below which floa
 bool is_finite(const Vec3& v)
 {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-std::string say(double number)
-{
-    std::ostringstream text;
-    text.precision(3);
-    text << number;
-    return text.str();
 }
 
 /// `v` times 2^exponent: exact unless it leaves the range of normal doubles.
@@ -71,8 +63,9 @@ void check_light(const Scene& scene)
     const auto check = [&](const Rgb& light, const std::string& what) {
         largest = std::max(largest, largest_component(light));
         if (!is_finite(light) || largest_component(light) > brightest)
-            throw SceneError(scene.name + ": " + what + " of " + say(largest_component(light)) +
-                             " is more than the " + say(brightest) + " that a picture can hold");
+            throw SceneError(scene.name + ": " + what + " of " + short_number(largest_component(light)) +
+                             " is more than the " + short_number(brightest) +
+                             " that a picture can hold");
     };
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (const auto* emission = std::get_if<Emission>(&scene.materials[i]))
@@ -86,9 +79,9 @@ void check_light(const Scene& scene)
     if (scene.environment) check(*scene.environment, "the environment: a radiance");
     // One dim light beside a bright one loses nothing that a picture shows.
     if (largest > 0 && largest < dimmest)
-        throw SceneError(scene.name + ": the brightest light, " + say(largest) +
-                         " (with the scene about one unit large), is less than the " + say(dimmest) +
-                         " that a picture can hold");
+        throw SceneError(scene.name + ": the brightest light, " + short_number(largest) +
+                         " (with the scene about one unit large), is less than the " +
+                         short_number(dimmest) + " that a picture can hold");
 }
 
 /// The multiple of the step that is nearest to the middle of the box, whose diagonal is in [1, 2).
@@ -106,8 +99,8 @@ void check_spacing(Scene& scene, const Bounds& box)
         farthest * std::numeric_limits<double>::epsilon() / glm::length(box.max - box.min);
     if (spacing < coarsest_noticed) return;
     const std::string what =
-        "the scene lies so far from the origin that its coordinates are rounded to " + say(spacing) +
-        " of its diagonal";
+        "the scene lies so far from the origin that its coordinates are rounded to " +
+        short_number(spacing) + " of its diagonal";
     if (!(spacing < coarsest_held))
         throw SceneError(scene.name + ": " + what + ": move it to the origin");
     scene.notices.push_back(what);

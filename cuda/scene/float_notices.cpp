@@ -7,14 +7,13 @@
 #include "scenes/for_each_light.h"
 #include "scenes/largest_component.h"
 #include "scenes/primitive_name.h"
+#include "scenes/short_number.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace fast {
@@ -101,13 +100,6 @@ void add_narrow_gaps(std::vector<std::string>& notices, const scenes::Scene& sce
              "passes between them is lost");
 }
 
-std::string short_number(double number)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", number);
-    return text.data();
-}
-
 // The limits of docs/extremes.md in single precision: up to there no result is wrong by more than 1%.
 constexpr double farthest_eye = 1.1e4;    // axis far-camera: in diagonals from the middle of the scene
 constexpr double narrowest_view = 0.16;   // axis fov-narrow: in degrees, of a picture of 64 pixels
@@ -124,14 +116,14 @@ void add_camera(std::vector<std::string>& notices, const scenes::Camera& camera,
         glm::length(camera.eye - (0.5 * box.min + 0.5 * box.max)) / std::max(diagonal, 1e-300);
     if (distance > farthest_eye)
         notices.push_back(
-            "the eye is " + short_number(distance) +
+            "the eye is " + scenes::short_number(distance) +
             " diagonals away from the middle of the scene: single precision aims rays from "
             "more than " +
-            short_number(farthest_eye) +
+            scenes::short_number(farthest_eye) +
             " with an error of more than 1% of the scene (--device ref does not)");
     const double degrees = camera.fov * 180 / std::numbers::pi;
     if (degrees < narrowest_view || degrees > 180 - least_missing)
-        notices.push_back("a field of view of " + short_number(degrees) +
+        notices.push_back("a field of view of " + scenes::short_number(degrees) +
                           " degrees: in single precision the directions of rays may be off by more than "
                           "1% of a pixel (--device ref is more precise)");
 }
@@ -145,7 +137,7 @@ void add_glass(std::vector<std::string>& notices, const scenes::Scene& scene)
         const double ior = glass->ior;
         if (ior > largest_ior || ior < 1 / largest_ior || std::abs(ior - 1) < nearest_to_air)
             notices.push_back("material \"" + scene.material_names[i] +
-                              "\": an index of refraction of " + short_number(ior) +
+                              "\": an index of refraction of " + scenes::short_number(ior) +
                               " is beyond what single precision holds to 1% (--device ref does)");
     }
 }
@@ -173,8 +165,8 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
     Count collapsed;
     Count small;
     Count small_emitters;
-    const auto whole = scenes::bounds(scene);
-    const double smallest = whole ? smallest_emitter * glm::length(whole->max - whole->min) : 0.0;
+    const auto box = scenes::bounds(scene);
+    const double diagonal = box ? glm::length(box->max - box->min) : 0.0;
     std::uint32_t primitive = 0;
     for (const scenes::Triangle& triangle : scene.triangles) {
         const auto& v = triangle.vertices;
@@ -185,7 +177,7 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
                 collapsed.add(primitive);
             else if (is_too_small(extent, scenes::largest_component(v[0] - place.origin)))
                 small.add(primitive);
-            else if (extent < smallest &&
+            else if (extent < smallest_emitter * diagonal &&
                      std::holds_alternative<scenes::Emission>(scene.materials[triangle.material]))
                 small_emitters.add(primitive);
         }
@@ -205,9 +197,7 @@ std::vector<std::string> float_notices(const scenes::Scene& scene)
     small_emitters.say(notices, scene,
                        "emit and are so small that single precision places points on them with an error "
                        "that may change their light by more than 1%");
-    const auto& box = whole;
     if (!box) return notices;
-    const double diagonal = glm::length(box->max - box->min);
     add_narrow_gaps(notices, scene, place, diagonal);
     add_glass(notices, scene);
     if (scene.camera) {

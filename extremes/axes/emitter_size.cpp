@@ -4,7 +4,6 @@
 #include "extremes/light/small_render.h"
 
 #include "scenes/placed.h"
-#include "scenes/read_scene.h"
 
 #include <glm/geometric.hpp>
 
@@ -86,20 +85,14 @@ auto emitter_size_cases(Format wing, images::Integrator integrator)
             options.max_edges = 3;
             options.batch_size = samples_of_emitter;
             options.seed = random.bits();
-            try {
+            judge_small_render(tally, [&] {
                 const scenes::Scene scene = scenes::placed(under.scene);
                 const double value = small_render(wing, scene, 1, options).pixels[0].r;
                 if (value == 0)
                     tally.add(Failure::missed);
                 else
                     tally.add(std::abs(value / under.radiance - 1));
-            } catch (const scenes::SceneError& error) {
-                tally.refuse(error.what());
-            } catch (const std::invalid_argument& error) {
-                tally.refuse(error.what());
-            } catch (const std::runtime_error&) {
-                tally.add(Failure::not_finite);
-            }
+            });
         }
     };
 }
@@ -128,7 +121,7 @@ auto emitter_size_cases(Format wing, images::Integrator integrator)
 double bound_of_emitter_size(Format format, double size)
 {
     const bool is_double = format == Format::binary64;
-    const double u = is_double ? 0x1p-53 : 0x1p-24;
+    const double u = unit_roundoff(format);
     const double by_chance = size > 3e-5 ? 1.0 / samples_of_emitter : 0;
     const double of_vertices = is_double ? 8.5 + 5.9 : 8.5 / 2;
     return 1.5 * size + by_chance + 12 * fov_of_emitter + u * (of_vertices / size + 12 * 90 + 30 + 255);

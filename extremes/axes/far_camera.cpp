@@ -20,13 +20,8 @@ auto far_camera_cases(EyeTracer trace)
             FarEye far = far_eye(parameter, random);
             far.targets.resize(static_cast<std::size_t>(std::min(rays_of_far_eye, cases - done)));
             std::vector<scenes::Vec3> towards;
-            for (const ExactVec3& target : far.targets) {
-                const ExactVec3 d = target - ExactVec3(far.scene.camera->eye);
-                const Exact scale = 1 / length(d);
-                towards.emplace_back((scale * d.x).convert_to<double>(),
-                                     (scale * d.y).convert_to<double>(),
-                                     (scale * d.z).convert_to<double>());
-            }
+            for (const ExactVec3& target : far.targets)
+                towards.push_back(rounded_unit(target - ExactVec3(far.scene.camera->eye)));
             const scenes::Scene scene = scenes::placed(far.scene);
             const double unit = scene.unit / far.scene.unit;
             const MetPoints met = trace(scene, towards);
@@ -59,7 +54,7 @@ auto far_camera_cases(EyeTracer trace)
 // both.
 double bound_of_far_camera(Format format, double distance)
 {
-    const double u = format == Format::binary64 ? 0x1p-53 : 0x1p-24;
+    const double u = unit_roundoff(format);
     const double ends = format == Format::binary64 ? 1 : 2; // direction, eye
     // The cosines at a surface that is not infinitely far away: the eye is at `distance` from the
     // middle.

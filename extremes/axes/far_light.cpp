@@ -2,6 +2,7 @@
 
 #include "extremes/axes/axes.h"
 #include "extremes/far/far_light_scene.h"
+#include "extremes/refusal.h"
 
 #include "cuda/launch/ray_pairs.h"
 #include "cuda/parallel/executor.h"
@@ -9,7 +10,6 @@
 #include "cuda/transport/emitter.h"
 #include "ref/transport/visibility.h"
 #include "scenes/placed.h"
-#include "scenes/read_scene.h"
 
 #include <glm/geometric.hpp>
 
@@ -69,12 +69,10 @@ auto far_light_cases(FarIrradiance irradiance, bool checked)
             FarLight far = far_light(parameter, random);
             far.points.resize(static_cast<std::size_t>(std::min(points_of_far_light, cases - done)));
             std::vector<double> computed;
-            try {
+            const bool accepted = unless_refused(tally, far.points.size(), [&] {
                 computed = irradiance(far, checked ? scenes::placed(far.scene) : far.scene);
-            } catch (const scenes::SceneError& error) {
-                for (std::size_t i = 0; i < far.points.size(); ++i) tally.refuse(error.what());
-                continue;
-            }
+            });
+            if (!accepted) continue;
             for (std::size_t i = 0; i < computed.size(); ++i) {
                 const FarLight::OnFloor& point = far.points[i];
                 if (!point.lit && computed[i] != 0) // also if it is NaN
@@ -107,7 +105,7 @@ auto far_light_cases(FarIrradiance irradiance, bool checked)
 //    error of d this is relative to the cosine, which is at least least_far_cosine less 0.5 / d.
 double bound_of_far_light(Format format, double distance)
 {
-    const double u = format == Format::binary64 ? 0x1p-53 : 0x1p-24;
+    const double u = unit_roundoff(format);
     const double d = distance - 0.5;
     const double of_d = (80 + distance) / d + 1;
     const double cosine = (least_far_cosine * distance) / (distance + 0.5);

@@ -21,7 +21,7 @@ constexpr double gap_cosine = 0.5;
 /// goes on to the second, at up to 60 degrees to the normal.
 LeaveCase gap_case(double parameter, Random& random, int rays)
 {
-    LeaveCase result{empty_scene(), {}, 1.0};
+    LeaveCase result{grey_scene(), {}, 1.0};
     const Turn turn = random_turn(random);
     const double corner = 1.0; // distance from the middle
     for (const double height : {0.0, parameter}) {

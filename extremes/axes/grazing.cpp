@@ -37,7 +37,7 @@ scenes::Vec3 on_floor(Random& random)
 /// a wall that stands on the floor. Below the floor, farther back, is another wall.
 LeaveCase leaving_flat(double parameter, Random& random, int rays)
 {
-    LeaveCase result{empty_scene(), {}, 1.0};
+    LeaveCase result{grey_scene(), {}, 1.0};
     const Turn turn = random_turn(random);
     add_floor(result.scene, turn);
     const auto wall = [&](double x, double top) {
@@ -62,7 +62,7 @@ LeaveCase leaving_flat(double parameter, Random& random, int rays)
 /// ceiling.
 LeaveCase arriving_flat(double parameter, Random& random, int rays)
 {
-    LeaveCase result{empty_scene(), {}, 1.0};
+    LeaveCase result{grey_scene(), {}, 1.0};
     const Turn turn = random_turn(random);
     add_floor(result.scene, turn);
     result.scene.triangles.push_back(

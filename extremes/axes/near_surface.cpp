@@ -3,6 +3,7 @@
 #include "extremes/axes/axes.h"
 #include "extremes/exact.h"
 #include "extremes/far/met_points.h"
+#include "extremes/grey_scene.h"
 
 #include "scenes/placed.h"
 
@@ -38,8 +39,7 @@ NearEye near_eye(double height, Random& random)
         return center + (std::cos(angle) * x + std::sin(angle) * y) / std::sqrt(3.0);
     };
     const std::array<scenes::Vec3, 3> v{corner(90), corner(210), corner(330)};
-    near.scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
-    near.scene.material_names = {"grey"};
+    near.scene = grey_scene();
     near.scene.triangles = {{v, 0}};
 
     const ExactVec3 e1 = ExactVec3(v[1]) - ExactVec3(v[0]);
@@ -103,7 +103,7 @@ auto near_eye_cases(EyeTracer trace)
 double bound_of_near_eye(Format format, double height)
 {
     const bool is_double = format == Format::binary64;
-    const double u = is_double ? 0x1p-53 : 0x1p-24;
+    const double u = unit_roundoff(format);
     const double of_plane = 6.1 + (is_double ? 0.7 : 1.4);
     return 1.01 * u *
            ((of_plane * (1 + 1 / least_cosine_from_near) + 8) / height + 4 / least_cosine_from_near);

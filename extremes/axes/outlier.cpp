@@ -1,6 +1,7 @@
 // One primitive far away from all others, or far larger: the grid of the Morton codes spans it, too.
 
 #include "extremes/axes/axes.h"
+#include "extremes/grey_scene.h"
 #include "extremes/trees/tree_rays.h"
 
 #include <cmath>
@@ -21,9 +22,7 @@ scenes::Scene scene_with_outlier(double distance, Random& random)
     const auto in_cube = [&] {
         return scenes::Vec3(random.uniform(), random.uniform(), random.uniform());
     };
-    scenes::Scene scene;
-    scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
-    scene.material_names = {"grey"};
+    scenes::Scene scene = grey_scene();
     const auto add_small = [&](const scenes::Vec3& middle) {
         scenes::Triangle triangle{};
         for (scenes::Vec3& vertex : triangle.vertices) vertex = middle + 0.03 * (in_cube() - 0.5);
@@ -68,7 +67,7 @@ void run_outlier(const AnyBuilder& builder, double distance, Random& random, int
 double lost_by_outlier(double distance, int bits, Format format)
 {
     const double cells = std::ldexp(1.0, bits);
-    const double u = format == Format::binary32 ? 0x1p-24 : 0x1p-53;
+    const double u = unit_roundoff(format);
     const double w = (1 + 5 * u * cells) * (distance + 1) / cells;
     return lost_order_bound(triangles_of_outlier, w * w * w);
 }

@@ -4,7 +4,6 @@
 #include "extremes/light/small_render.h"
 
 #include "scenes/placed.h"
-#include "scenes/read_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,7 +105,7 @@ auto radiance_cases(Format wing, bool checked)
             options.max_edges = 4;
             options.batch_size = 8;
             options.seed = random.bits();
-            try {
+            judge_small_render(tally, [&] {
                 scenes::Scene scene = lit_scene(lit, radiance);
                 if (checked) scene = scenes::placed(scene);
                 const images::Image image = small_render(wing, scene, pixels_of_radiance, options);
@@ -116,13 +115,7 @@ auto radiance_cases(Format wing, bool checked)
                     tally.add(Failure::biased);
                 else
                     compare_radiance(image, one, radiance, tally);
-            } catch (const scenes::SceneError& error) {
-                tally.refuse(error.what());
-            } catch (const std::invalid_argument& error) {
-                tally.refuse(error.what());
-            } catch (const std::runtime_error&) {
-                tally.add(Failure::not_finite);
-            }
+            });
         }
     };
 }

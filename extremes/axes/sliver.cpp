@@ -48,7 +48,7 @@ double place_across(Random& random, double along)
 LeaveCase tube_case(double parameter, Random& random, int rays)
 {
     const double width = 0.5 / parameter; // of the cross-section: the radius of its corners
-    LeaveCase result{empty_scene(), {}, width};
+    LeaveCase result{grey_scene(), {}, width};
     const Turn turn = random_turn(random);
     Tube tube{};
     for (std::size_t i = 0; i < 3; ++i) {

@@ -63,7 +63,7 @@ TwoRays sphere_over_sphere(double ratio, Random& random)
 /// The same for the usual tricks: the light always goes on to the small sphere.
 LeaveCase leaving_sphere_floor(double ratio, Random& random, int rays)
 {
-    LeaveCase result{empty_scene(), {}, 1.0};
+    LeaveCase result{grey_scene(), {}, 1.0};
     const scenes::Vec3 up = random.direction();
     const scenes::Vec3 x = glm::normalize(glm::cross(up, random.direction()));
     const scenes::Vec3 y = glm::cross(up, x);
@@ -100,7 +100,7 @@ LeaveCase leaving_sphere_floor(double ratio, Random& random, int rays)
 double bound_of_sphere_floor(Format format, double ratio)
 {
     const bool is_double = format == Format::binary64;
-    const double u = is_double ? 0x1p-53 : 0x1p-24;
+    const double u = unit_roundoff(format);
     return 1.01 * u * ((is_double ? 100 : 157) * (ratio + 4) + 250);
 }
 

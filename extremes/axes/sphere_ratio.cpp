@@ -73,7 +73,7 @@ TwoRays small_beside_large(double ratio, Random& random)
 double bound_of_sphere_ratio(Format format, double ratio)
 {
     const bool is_double = format == Format::binary64;
-    const double u = is_double ? 0x1p-53 : 0x1p-24;
+    const double u = unit_roundoff(format);
     const double across = (2 * 6.5 + (is_double ? 0 : 8)) / 0.714;
     const double first = (across + (12 * 0.7 + 1) * 6.5 + 5) * ratio + 10;
     return 1.01 * u * (std::sqrt(2.0) * (first + 7.5 * ratio + 60) + 5 * ratio);

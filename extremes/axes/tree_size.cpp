@@ -109,7 +109,7 @@ namespace {
 double lost_by_size(double n, int bits, Format format)
 {
     const double cells = std::ldexp(1.0, bits);
-    const double u = format == Format::binary32 ? 0x1p-24 : 0x1p-53;
+    const double u = unit_roundoff(format);
     const double w = (1 + 6 * u * cells) * (1 + 0.5 / std::cbrt(n)) / cells;
     return lost_order_bound(n, w * w * w);
 }

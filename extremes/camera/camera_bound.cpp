@@ -28,7 +28,7 @@ namespace extremes {
 double bound_of_camera(Format format, double tan_half)
 {
     const bool is_double = format == Format::binary64;
-    const double u = is_double ? 0x1p-53 : 0x1p-24;
+    const double u = unit_roundoff(format);
     const double T = 1.125 * tan_half; // outside the picture, in 3 and 4; for simplicity also in 2
     const double q = tan_half / (0.5 * camera_pixels);
     const double p = is_double ? 3 + tan_half : 1.01;

@@ -1,4 +1,5 @@
 #include "extremes/far/far_eye.h"
+#include "extremes/grey_scene.h"
 
 #include <glm/geometric.hpp>
 
@@ -67,8 +68,7 @@ FarEye far_eye(double distance, Random& random)
 {
     FarEye far;
     const scenes::Vec3 to_eye = random.direction();
-    far.scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
-    far.scene.material_names = {"grey"};
+    far.scene = grey_scene();
     far.scene.camera = scenes::Camera{distance * to_eye,           {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
                                       scenes::FovAxis::horizontal, 1};
     if (random.sign() > 0)

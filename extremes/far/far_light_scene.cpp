@@ -1,4 +1,5 @@
 #include "extremes/far/far_light_scene.h"
+#include "extremes/grey_scene.h"
 
 #include <glm/geometric.hpp>
 
@@ -14,8 +15,7 @@ FarLight far_light(double distance, Random& random)
     const scenes::Vec3 y = glm::cross(up, x);
     const double half = 0.5 / std::sqrt(2.0);
     const auto corner = [&](double a, double b) { return half * (a * x + b * y); };
-    far.scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
-    far.scene.material_names = {"grey"};
+    far.scene = grey_scene();
     far.scene.triangles = {{{corner(-1, -1), corner(1, -1), corner(-1, 1)}, 0},
                            {{corner(1, 1), corner(-1, 1), corner(1, -1)}, 0}};
     const scenes::Sphere sphere{0.1 * up, 0.05, 0};

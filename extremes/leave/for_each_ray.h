@@ -3,10 +3,9 @@
 // The loop that all methods of leaving surfaces have in common.
 
 #include "extremes/leave/leave_case.h"
-#include "scenes/read_scene.h"
+#include "extremes/refusal.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace extremes {
 
@@ -23,15 +22,8 @@ void for_each_leave_ray(MakeLeaveCase make, double parameter, Random& random, in
     for (int done = 0; done < cases; done += rays_of_scene) {
         const LeaveCase from = make(parameter, random, std::min(rays_of_scene, cases - done));
         std::vector<FoundOnward> all;
-        try {
-            all = found(from, tally);
-        } catch (const scenes::SceneError& error) {
-            for (std::size_t i = 0; i < from.rays.size(); ++i) tally.refuse(error.what());
-            continue;
-        } catch (const std::invalid_argument& error) {
-            for (std::size_t i = 0; i < from.rays.size(); ++i) tally.refuse(error.what());
-            continue;
-        }
+        const bool accepted = unless_refused(tally, from.rays.size(), [&] { all = found(from, tally); });
+        if (!accepted) continue;
         for (std::size_t i = 0; i < from.rays.size(); ++i) {
             if (const auto truth = exact_onward(from.scene, from.rays[i]))
                 judge_onward(from, from.rays[i], *truth, all.at(i), tally);

@@ -11,11 +11,6 @@ namespace extremes {
 
 namespace {
 
-scenes::Vec3 in_doubles(const ExactVec3& v)
-{
-    return {v.x.convert_to<double>(), v.y.convert_to<double>(), v.z.convert_to<double>()};
-}
-
 /// Whether it is certain in doubles that a line along `d` passes outside a triangle with the corners a,
 /// b, c relative to a point of the line: two signed volumes differ in sign, and each is far larger than
 /// its error, which is less than 20 roundings. Saves most of the exact arithmetic.
@@ -82,15 +77,6 @@ void for_each_crossing(const scenes::Scene& scene, std::uint32_t primitive, cons
 }
 
 } // namespace
-
-scenes::Scene empty_scene()
-{
-    scenes::Scene scene;
-    scene.name = "extremes";
-    scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
-    scene.material_names = {"grey"};
-    return scene;
-}
 
 std::optional<Onward> exact_onward(const scenes::Scene& scene, const LeaveRay& ray)
 {

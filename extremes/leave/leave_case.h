@@ -5,6 +5,7 @@
 
 #include "extremes/axis.h"
 #include "extremes/exact.h"
+#include "extremes/grey_scene.h"
 #include "scenes/scene.h"
 
 #include <cstdint>
@@ -27,9 +28,6 @@ struct LeaveCase {
     std::vector<LeaveRay> rays;
     double size; // the length that errors are relative to, in the scene's unit
 };
-
-/// A scene with one diffuse material and nothing else.
-scenes::Scene empty_scene();
 
 /// The primitive that the light meets next, and how far it goes: in multiples of LeaveRay::onward.
 struct Onward {

@@ -26,8 +26,8 @@ scenes::Scene placed_with_origins(const LeaveCase& from)
     return scenes::placed(std::move(scene));
 }
 
-/// Whether placing the scene multiplied lengths by this number, which may be beyond the range of
-/// doubles. It is a power of two.
+/// The number by which placing the scene multiplied lengths, a power of two. It may be beyond the range
+/// of doubles.
 Exact placed_unit(const LeaveCase& from, const scenes::Scene& placed)
 {
     // The largest difference of two coordinates, before and after: both are exact.

@@ -31,7 +31,7 @@ std::array<scenes::Vec3, 4> random_corners(Random& random)
 LeaveCase tetrahedron_case(Random& random, int rays, double size,
                            const std::function<scenes::Vec3(const scenes::Vec3&)>& place)
 {
-    LeaveCase result{empty_scene(), {}, size};
+    LeaveCase result{grey_scene(), {}, size};
     const std::array<scenes::Vec3, 4> shape = random_corners(random);
     std::array<scenes::Vec3, 4> corners{};
     for (std::size_t i = 0; i < 4; ++i) corners[i] = place(shape[i]);

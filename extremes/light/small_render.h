@@ -3,10 +3,13 @@
 // Small pictures by both wings, as a file holds them.
 
 #include "extremes/axis.h"
+#include "extremes/refusal.h"
 
 #include "images/image.h"
 #include "images/render_options.h"
 #include "scenes/scene.h"
+
+#include <stdexcept>
 
 namespace extremes {
 
@@ -15,5 +18,17 @@ namespace extremes {
 /// is not finite.
 images::Image small_render(Format wing, const scenes::Scene& scene, int size,
                            const images::RenderOptions& options);
+
+/// Calls judge(), which makes small renders and adds one case to `tally`. Adds the case itself where the
+/// program refuses the scene, and where a contribution is not finite.
+template <class Judge>
+void judge_small_render(Tally& tally, const Judge& judge)
+{
+    try {
+        unless_refused(tally, 1, judge);
+    } catch (const std::runtime_error&) {
+        tally.add(Failure::not_finite);
+    }
+}
 
 } // namespace extremes

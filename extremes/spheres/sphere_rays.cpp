@@ -1,4 +1,5 @@
 #include "extremes/spheres/sphere_rays.h"
+#include "extremes/grey_scene.h"
 
 #include "cuda/parallel/executor.h"
 #include "cuda/scene/scene_in_memory.h"
@@ -119,13 +120,6 @@ std::vector<Method> methods_of_two_rays(const TwoRaysDraw& draw)
             {"host", Format::binary32, cases_of_two_rays(both_met_by_fast_path, draw)}};
 }
 
-scenes::Vec3 rounded_unit(const ExactVec3& v)
-{
-    const Exact scale = 1 / length(v);
-    return {(scale * v.x).convert_to<double>(), (scale * v.y).convert_to<double>(),
-            (scale * v.z).convert_to<double>()};
-}
-
 ExactVec3 point_of_sphere(const scenes::Sphere& sphere, const ExactVec3& towards)
 {
     return ExactVec3(sphere.center) + (Exact(sphere.radius) / length(towards)) * towards;
@@ -142,9 +136,7 @@ scenes::Vec3 direction_near(const scenes::Vec3& axis, double largest_sine, Rando
 
 scenes::Scene scene_of_spheres(std::vector<scenes::Sphere> spheres, const scenes::Vec3& eye)
 {
-    scenes::Scene scene;
-    scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
-    scene.material_names = {"grey"};
+    scenes::Scene scene = grey_scene();
     scene.spheres = std::move(spheres);
     scene.camera = scenes::Camera{eye, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, scenes::FovAxis::horizontal, 1};
     return scene;

@@ -33,8 +33,6 @@ using TwoRaysDraw = std::function<TwoRays(double parameter, Random& random)>;
 /// a ray meets another surface than it should.
 std::vector<Method> methods_of_two_rays(const TwoRaysDraw& draw);
 
-scenes::Vec3 rounded_unit(const ExactVec3& v);
-
 /// The point of the sphere in the direction of `towards` from its centre.
 ExactVec3 point_of_sphere(const scenes::Sphere& sphere, const ExactVec3& towards);
 
