@@ -9,7 +9,7 @@ namespace images {
 
 std::string page_scripts()
 {
-    return fill(page_parts::d3_html,
+    return fill(page_parts::html,
                 std::array<Mark, 2>{{{"@D3@", page_parts::d3}, {"@PAGE_BASICS@", page_parts::basics}}});
 }
 
