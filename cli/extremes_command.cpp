@@ -3,6 +3,7 @@
 #include "cli/extremes_command.h"
 
 #include "cli/interrupt.h"
+#include "cli/kept_results.h"
 #include "cli/machine.h"
 #include "cli/progress.h"
 #include "extremes/page.h"
@@ -15,7 +16,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -81,19 +81,6 @@ void print_list(const std::vector<WalkedAxis>& axes)
     }
 }
 
-void restore(const ExtremesCommand& options, const extremes::Description& description,
-             std::vector<WalkedAxis>& walked)
-{
-    if (!options.resume || !std::filesystem::exists(options.output)) return;
-    try {
-        const auto json = extremes::Json::parse(images::read_file(options.output), nullptr, false);
-        if (json.is_discarded()) throw std::invalid_argument("it is no JSON");
-        extremes::restore(json, description, walked);
-    } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument("--resume " + options.output + ": " + error.what());
-    }
-}
-
 /// The points that are missing: axis, method and parameter.
 struct Missing {
     WalkedAxis* axis;
@@ -131,7 +118,9 @@ ExitStatus extremes_command(const ExtremesCommand& options, const std::string& c
     catch_interrupts();
     extremes::Description description{PLUMBLINE_VERSION, command,      today(), processor_name(),
                                       options.cases,     options.seed, false};
-    restore(options, description, walked);
+    if (options.resume)
+        resume_from(options.output,
+                    [&](const extremes::Json& json) { extremes::restore(json, description, walked); });
 
     extremes::WalkOptions walk;
     walk.cases = options.cases;
@@ -174,13 +163,7 @@ ExitStatus extremes_command(const ExtremesCommand& options, const std::string& c
                   : options.markdown ? extremes::markdown(found)
                                      : extremes::table(found))
               << std::flush;
-    if (stopped) {
-        std::cerr << "plumbline: interrupted: "
-                  << (options.output.empty() ? "with -o, --resume would go on from here"
-                                             : "--resume goes on from here")
-                  << '\n';
-        return interrupted;
-    }
+    if (stopped) return say_interrupted(options.output);
     const std::vector<std::string> wrong = extremes::contradictions(walked);
     for (const std::string& line : wrong)
         std::cerr << "plumbline: a limit does not hold: " << line << '\n';

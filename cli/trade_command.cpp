@@ -3,6 +3,7 @@
 #include "cli/trade_command.h"
 
 #include "cli/interrupt.h"
+#include "cli/kept_results.h"
 #include "cli/machine.h"
 #include "cli/progress.h"
 #include "cli/trade_needs.h"
@@ -16,7 +17,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -26,15 +26,6 @@ namespace cli {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-trade::Json read_results(const std::string& path)
-{
-    auto json = trade::Json::parse(images::read_file(path), nullptr, false);
-    if (json.is_discarded()) throw std::invalid_argument("it is no JSON");
-    return json;
-}
-
 /// Earlier measurements, with --resume.
 std::vector<trade::Measurements> earlier(const TradeCommand& options,
                                          const trade::Description& description,
@@ -42,13 +33,12 @@ std::vector<trade::Measurements> earlier(const TradeCommand& options,
                                          const std::vector<trade::Configuration>& configurations,
                                          const trade::Truth& truth)
 {
-    if (!options.resume || !fs::exists(options.output))
-        return std::vector<trade::Measurements>(configurations.size());
-    try {
-        return trade::restored(read_results(options.output), description, study, configurations, truth);
-    } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument("--resume " + options.output + ": " + error.what());
-    }
+    std::vector<trade::Measurements> measured(configurations.size());
+    if (options.resume)
+        resume_from(options.output, [&](const trade::Json& json) {
+            measured = trade::restored(json, description, study, configurations, truth);
+        });
+    return measured;
 }
 
 /// The part of all rounds that is measured.
@@ -105,12 +95,7 @@ ExitStatus trade_command(const TradeCommand& options, const std::string& command
     write(found);
     if (!options.report.empty()) images::write_atomically(options.report, trade::page(found));
     std::cout << (options.json ? found.dump() + "\n" : trade::table(found)) << std::flush;
-    if (description.complete) return fine;
-    std::cerr << "plumbline: interrupted: "
-              << (options.output.empty() ? "with -o, --resume would go on from here"
-                                         : "--resume goes on from here")
-              << '\n';
-    return interrupted;
+    return description.complete ? fine : say_interrupted(options.output);
 }
 
 } // namespace

@@ -106,18 +106,16 @@ auto emitter_size_cases(Format wing, images::Integrator integrator)
 //    the probability s^2 cos' / (pi d^2), and then counts as one sample of 256 (the balance heuristic).
 //    Below s = 3e-5 that is one case in 10^6.
 // 2. The pixel spans 0.6 fov / cos of the floor, and 12 times this is less than 12 fov.
-// 3. Vertices. The coordinates of the square are less than 1. In double they were rounded in two sums,
-// by
-//    u together; in single precision, where the middle of the scene is the origin, by u / 2. A vertex
-//    moves by sqrt(3) u along the normal at most, and the plane of a right triangle with the legs s
-//    turns by 2 sqrt(2) sqrt(3) u / s = 4.9 u / s. The cosine at the emitter changes by tan(60 degrees)
-//    times this: 8.5 u / s, or half of it for floats. The area has an error, too: displacements of
-//    sqrt(3) u over the half perimeter 1.71 s, relative to s^2 / 2: 5.9 u / s. The fast path computes
+// 3. Vertices. The coordinates of the square are less than 1. In double they were rounded in two
+//    sums, by u together; in single precision, where the middle of the scene is the origin, by u / 2. A
+//    vertex moves by sqrt(3) u along the normal at most, and the plane of a right triangle with the legs
+//    s turns by 2 sqrt(2) sqrt(3) u / s = 4.9 u / s. The cosine at the emitter changes by tan(60
+//    degrees) times this: 8.5 u / s, or half of it for floats. The area has an error, too: displacements
+//    of sqrt(3) u over the half perimeter 1.71 s, relative to s^2 / 2: 5.9 u / s. The fast path computes
 //    areas in double.
 // 4. The rest. The point of the floor has an error of less than 90 u: 72 u where it is moved off the
-// edge of
-//    its triangle (clearance.h), 7 u of its weights, and the roundings of vertices: 12 times that. 30
-//    roundings of the contribution; and 256 samples are summed one by one.
+//    edge of its triangle (clearance.h), 7 u of its weights, and the roundings of vertices: 12 times
+//    that. 30 roundings of the contribution; and 256 samples are summed one by one.
 double bound_of_emitter_size(Format format, double size)
 {
     const bool is_double = format == Format::binary64;

@@ -96,13 +96,13 @@ auto far_light_cases(FarIrradiance irradiance, bool checked)
 // 1. The vector d = s - p. The position p has a rounding of each vertex, of the products and the sums,
 //    and it may be moved off the edge of its triangle by 72 u in single precision: in total less than
 //    80 u. The position s of the light is rounded, u D, and so is the difference, u d.
-// 2. The intensity is rounded, twice with the factor of the scale, the squares and their sum add 3 u,
-// the
-//    reciprocal and the product 2 u, the probability of the choice 1 u: 8 u, and twice the error of d.
-// 3. The cosine. The normal has an angle of 4 u times 2, the ratio of the longest edge to the height,
-// and
-//    6 u from the vertices; the unit vector has 3.5 u, the product with it and the sum 4 u. With the
-//    error of d this is relative to the cosine, which is at least least_far_cosine less 0.5 / d.
+// 2. The intensity is rounded, twice with the factor of the scale, the squares and their sum add
+//    3 u, the reciprocal and the product 2 u, the probability of the choice 1 u: 8 u, and twice the
+//    error of d.
+// 3. The cosine. The normal has an angle of 4 u times 2, the ratio of the longest edge to the
+//    height, and 6 u from the vertices; the unit vector has 3.5 u, the product with it and the sum 4 u.
+//    With the error of d this is relative to the cosine, which is at least least_far_cosine less 0.5 /
+//    d.
 double bound_of_far_light(Format format, double distance)
 {
     const double u = unit_roundoff(format);

@@ -91,8 +91,7 @@ LeaveCase leaving_sphere_floor(double ratio, Random& random, int rays)
 //    sum with the centre 2 u R: 47 u R. In single precision the eye, the centre and the radius are
 //    rounded, which moves the point by 3 u R: 50 u R.
 // 2. The second ray starts at the clearance: 56 u R + 2 u R in single precision; 5 + 14 + 2 u R in
-// double.
-//    Its origin is rounded, u R. Together: 109 u R, and 69 u R in double.
+//    double. Its origin is rounded, u R. Together: 109 u R, and 69 u R in double.
 // 3. On the small sphere, the point is displaced by 1 / cos of this, cos >= 0.71, and by the rounding of
 //    the sums with its centre, 2 u R, and in single precision of the centre itself: 157 u R, and 100 u R
 //    in double. The errors of its own test are less than 250 u.

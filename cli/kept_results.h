@@ -1,0 +1,24 @@
+#pragma once
+
+// Results that a long command keeps in its output, and goes on with by --resume.
+
+#include "cli/command.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <functional>
+#include <string>
+
+namespace cli {
+
+/// Calls restore(json) with the content of the file `output`, if it exists. Throws
+/// std::invalid_argument, "--resume FILE: REASON", if the file is no JSON or if restore() throws one;
+/// images::ImageError if the file cannot be read.
+void resume_from(const std::string& output,
+                 const std::function<void(const nlohmann::ordered_json&)>& restore);
+
+/// Says on stderr that the command was interrupted, and how to go on; `output` may be empty. Returns the
+/// exit status.
+ExitStatus say_interrupted(const std::string& output);
+
+} // namespace cli
