@@ -15,8 +15,7 @@ void resume_from(const std::string& output,
 {
     if (!std::filesystem::exists(output)) return;
     try {
-        const auto json =
-            nlohmann::ordered_json::parse(images::read_file(output), nullptr, false);
+        const auto json = nlohmann::ordered_json::parse(images::read_file(output), nullptr, false);
         if (json.is_discarded()) throw std::invalid_argument("it is no JSON");
         restore(json);
     } catch (const std::invalid_argument& error) {
