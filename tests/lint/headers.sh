@@ -19,7 +19,7 @@ while IFS= read -r -d '' header; do
         echo "$source: its first include must be \"$header\""
         failed=1
     fi
-done < <(tracked 'cli/*.h' 'golden/*.h' 'images/*.h' 'ref/*.h' 'scenes/*.h' 'trade/*.h' 'extremes/*.h' 'cuda/*.h')
+done < <(tracked 'cli/*.h' 'golden/*.h' 'images/*.h' 'ref/*.h' 'scenes/*.h' 'trade/*.h' 'check/*.h' 'extremes/*.h' 'cuda/*.h')
 # Vectors need the instructions of AVX2, as in cmake/instruction_sets.cmake. Each is compiled, and is no proof for others.
 if [ ${#vectors[@]} -gt 0 ]; then
     case $("$2" -dumpmachine) in

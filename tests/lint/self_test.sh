@@ -4,7 +4,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
-mkdir -p "$root"/{ref/trees,cuda/trees,scenes,images,golden,trade,extremes,cli,tests}
+mkdir -p "$root"/{ref/trees,cuda/trees,scenes,images,golden,trade,check,extremes,cli,tests}
 failures=0
 
 # expect pass|fail CHECK FILE CONTENT: CHECK on a tree that holds only this file
@@ -34,6 +34,8 @@ expect pass includes.sh extremes/a.cpp '#include "ref/trees/ray.h"'
 expect pass includes.sh extremes/a.cpp '#include "cuda/trees/ray.h"'
 expect fail includes.sh extremes/a.h '#include "cli/command.h"'
 expect fail includes.sh ref/a.h '#include "extremes/axis.h"'
+expect pass includes.sh check/a.cpp '#include "golden/golden.h"'
+expect fail includes.sh check/a.h '#include "cli/command.h"'
 expect fail includes.sh images/a.h '#include "golden/golden.h"'
 expect fail includes.sh ref/a.h '#include "golden/golden.h"'
 expect fail includes.sh ref/trees/a.cpp '#include "cli/command.h"'
