@@ -68,7 +68,7 @@ struct TreeChecks {
 };
 
 /// Checks `tree` over these primitives, whose boxes must not be empty nor contain NaN. The properties,
-/// by name: sizes, nodes, indices, one-root, one-parent, reachable, parents (if the tree has them),
+/// by name: sizes, nodes, indices, one-parent, one-root, reachable, parents (if the tree has them),
 /// primitives, contain, tight, and those of `checks`. All comparisons are exact. Any tree is safe: every
 /// index is checked before it is followed, cycles end, and depth needs no stack. A tree over no
 /// primitives has no node, or one leaf without slots.

@@ -115,13 +115,22 @@ Aabb one_box(const Set& set, std::size_t i, Draw& draw)
     return {scale * (center - half), scale * (center + half)};
 }
 
-/// Every coordinate rounded to the nearest float. Rounding is monotonic: no box becomes empty.
-Aabb rounded_to_floats(const Aabb& box)
+/// The nearest float. The variable is volatile because g++ 12.2 at -O2 leaves out the conversion of two
+/// neighbouring doubles to float and back.
+double rounded_to_float(double x)
 {
-    const auto rounded = [](const Vec3& v) {
-        return Vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-    };
-    return {rounded(box.lower), rounded(box.upper)};
+    const volatile float rounded = static_cast<float>(x);
+    return rounded;
+}
+
+/// Every coordinate rounded to the nearest float. Rounding is monotonic: no box becomes empty.
+Aabb rounded_to_floats(Aabb box)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        box.lower[axis] = rounded_to_float(box.lower[axis]);
+        box.upper[axis] = rounded_to_float(box.upper[axis]);
+    }
+    return box;
 }
 
 /// Makes one coordinate NaN or infinite.

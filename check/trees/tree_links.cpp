@@ -139,9 +139,9 @@ Property check_parents(const NeutralTree& tree, const Parents& parents)
 std::vector<Property> check_links(const NeutralTree& tree, std::size_t primitives, std::int64_t& root)
 {
     Parents parents;
-    Property one_parent = check_one_parent(tree, parents);
-    std::vector<Property> result = {check_one_root(tree, parents, primitives, root),
-                                    std::move(one_parent), check_reachable(tree, parents, root)};
+    std::vector<Property> result = {check_one_parent(tree, parents)};
+    result.push_back(check_one_root(tree, parents, primitives, root));
+    result.push_back(check_reachable(tree, parents, root));
     if (!tree.parents.empty()) result.push_back(check_parents(tree, parents));
     return result;
 }

@@ -50,7 +50,7 @@ Property check_sizes(const NeutralTree& tree);
 Property check_nodes(const NeutralTree& tree, std::size_t primitives);
 Property check_indices(const NeutralTree& tree, std::size_t primitives);
 Property check_leaves(const NeutralTree& tree, std::size_t primitives);
-/// one-root, one-parent, reachable, and parents if the tree has them. Sets `root`; `none` if there is
+/// one-parent, one-root, reachable, and parents if the tree has them. Sets `root`; `none` if there is
 /// not exactly one.
 std::vector<Property> check_links(const NeutralTree& tree, std::size_t primitives, std::int64_t& root);
 Property check_contain(const NeutralTree& tree, std::span<const ref::Aabb> primitives);
