@@ -37,10 +37,11 @@ std::vector<Planned> plan(const BuilderOptions& options)
 {
     std::vector<Planned> result;
     const auto add = [&](InputKind kind, std::size_t n) {
-        if (n <= options.largest && std::ranges::find(options.kinds, kind) != options.kinds.end())
+        const bool fits = n <= options.largest && (kind == InputKind::empty) == (n == 0);
+        if (fits && std::ranges::find(options.kinds, kind) != options.kinds.end())
             result.push_back({kind, n, options.seed + result.size()});
     };
-    if (!options.kinds.empty()) add(options.kinds.front(), 0);
+    add(InputKind::empty, 0);
     for (const std::size_t n : small_sizes)
         for (const InputKind kind : input_kinds) add(kind, n);
     std::mt19937_64 bits(options.seed);

@@ -106,6 +106,7 @@ Aabb one_box(const Set& set, std::size_t i, Draw& draw)
     case InputKind::mixed:
         scale = draw.magnitude(-30, 30);
         break;
+    case InputKind::empty:
     case InputKind::uniform:
     case InputKind::duplicated:
     case InputKind::infinite:
@@ -149,16 +150,17 @@ void spoil(Aabb& box, InputKind kind, Draw& draw)
 
 std::string name(InputKind kind)
 {
-    constexpr std::array names = {"uniform",    "grid",       "clustered", "duplicated",
-                                  "coincident", "concentric", "flat",      "collinear",
-                                  "geometric",  "giant",      "huge",      "tiny",
-                                  "denormal",   "mixed",      "infinite",  "nan"};
+    constexpr std::array names = {"empty",      "uniform",    "grid", "clustered", "duplicated",
+                                  "coincident", "concentric", "flat", "collinear", "geometric",
+                                  "giant",      "huge",       "tiny", "denormal",  "mixed",
+                                  "infinite",   "nan"};
     static_assert(names.size() == input_kinds.size());
     return names[static_cast<std::size_t>(kind)];
 }
 
 std::vector<Aabb> input_boxes(InputKind kind, std::size_t n, std::uint64_t seed, bool single_precision)
 {
+    if (kind == InputKind::empty) return {};
     Draw draw(seed);
     const double smallest = single_precision ? std::numeric_limits<float>::denorm_min()
                                              : std::numeric_limits<double>::denorm_min();

@@ -13,6 +13,7 @@
 namespace check {
 
 enum class InputKind {
+    empty,      // no box at all: may be rejected
     uniform,    // centres uniform in a cube, sizes of all orders of magnitude, some boxes without volume
     grid,       // unit cubes in rows: all coordinates are small integers, with many ties
     clustered,  // three clusters, each far smaller than the distances between them
@@ -32,16 +33,17 @@ enum class InputKind {
 };
 
 inline constexpr std::array input_kinds = {
-    InputKind::uniform,    InputKind::grid,       InputKind::clustered, InputKind::duplicated,
-    InputKind::coincident, InputKind::concentric, InputKind::flat,      InputKind::collinear,
-    InputKind::geometric,  InputKind::giant,      InputKind::huge,      InputKind::tiny,
-    InputKind::denormal,   InputKind::mixed,      InputKind::infinite,  InputKind::nan};
+    InputKind::empty,      InputKind::uniform,    InputKind::grid,       InputKind::clustered,
+    InputKind::duplicated, InputKind::coincident, InputKind::concentric, InputKind::flat,
+    InputKind::collinear,  InputKind::geometric,  InputKind::giant,      InputKind::huge,
+    InputKind::tiny,       InputKind::denormal,   InputKind::mixed,      InputKind::infinite,
+    InputKind::nan};
 
 /// "uniform"
 std::string name(InputKind kind);
 
-/// `n` boxes of this kind, the same ones for the same seed. All coordinates are floats if
-/// `single_precision`. Lower ends are never above upper ends; only `infinite` and `nan` have a
+/// `n` boxes of this kind (none of `empty`), the same ones for the same seed. All coordinates are floats
+/// if `single_precision`. Lower ends are never above upper ends; only `infinite` and `nan` have a
 /// coordinate that is not finite, in one box (none if n = 0).
 std::vector<ref::Aabb> input_boxes(InputKind kind, std::size_t n, std::uint64_t seed,
                                    bool single_precision = true);

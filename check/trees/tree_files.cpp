@@ -21,6 +21,7 @@ NpyArray read_shaped(const std::filesystem::path& path, bool integers,
                      const std::vector<std::size_t>& extents, const char* expected)
 {
     NpyArray array = read_npy(path);
+    if (array.reals.empty() && array.integers.empty()) return array; // numpy.array([]) has any type
     if (array.is_integer() != integers)
         throw ImageError(
             path, "holds " + array.type +
@@ -64,11 +65,11 @@ NeutralTree read_tree_folder(const std::filesystem::path& folder)
     NeutralTree tree;
     const NpyArray nodes =
         read_shaped(folder / "nodes.npy", true, {0}, "(m, 4), or (m, k + 2) for nodes of k children");
-    if (nodes.shape[1] < 4)
+    if (!nodes.integers.empty() && nodes.shape[1] < 4)
         throw ImageError(folder / "nodes.npy",
                          "has the shape " + shape_text(nodes.shape) +
                              ": it must be (m, 4), or (m, k + 2) for nodes of k children");
-    tree.width = nodes.shape[1] - 2;
+    if (!nodes.integers.empty()) tree.width = nodes.shape[1] - 2;
     tree.nodes = nodes.integers;
     const NpyArray boxes = read_shaped(folder / "boxes.npy", false, {6}, "(m, 6)");
     tree.boxes = boxes_of(boxes.reals);

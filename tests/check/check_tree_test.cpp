@@ -29,6 +29,13 @@ std::vector<ref::Aabb> eight_boxes()
     return check::input_boxes(InputKind::grid, 8, 1);
 }
 
+/// One of the kinds without NaN and infinite coordinates.
+InputKind legal_kind(std::uint64_t number)
+{
+    const auto legal = std::span(check::input_kinds).subspan(1).first<14>();
+    return legal[number % legal.size()];
+}
+
 struct Broken {
     const char* name;
     std::function<void(NeutralTree&)> damage;
@@ -254,8 +261,7 @@ TEST(CheckTree, NeedsNoStackForADeepTree)
 RC_GTEST_PROP(CheckTree, AcceptsEveryNumberingOfTheNodes, ())
 {
     std::mt19937_64 bits(*rc::gen::arbitrary<std::uint64_t>());
-    const std::vector<ref::Aabb> boxes =
-        check::input_boxes(check::input_kinds[bits() % 14], 1 + bits() % 40, bits());
+    const std::vector<ref::Aabb> boxes = check::input_boxes(legal_kind(bits()), 1 + bits() % 40, bits());
     const NeutralTree tree = check::neutral(ref::build(boxes, ref::Builder::sah_leaf));
     std::vector<std::size_t> number(tree.size());
     std::iota(number.begin(), number.end(), std::size_t{0});
@@ -280,8 +286,7 @@ RC_GTEST_PROP(CheckTree, AcceptsEveryNumberingOfTheNodes, ())
 RC_GTEST_PROP(CheckTree, AgreesWithTheReferencesCheckOnDamagedTrees, ())
 {
     std::mt19937_64 bits(*rc::gen::arbitrary<std::uint64_t>());
-    const std::vector<ref::Aabb> boxes =
-        check::input_boxes(check::input_kinds[bits() % 14], 2 + bits() % 6, bits());
+    const std::vector<ref::Aabb> boxes = check::input_boxes(legal_kind(bits()), 2 + bits() % 6, bits());
     ref::Tree tree = ref::build(boxes, ref::Builder::morton30);
     const std::size_t node = bits() % tree.nodes.size();
     const auto number = static_cast<std::uint32_t>(bits() % (tree.nodes.size() + 1));

@@ -116,6 +116,10 @@ TEST(TreeFiles, NameWhatIsWrongWithATree)
     EXPECT_EQ(message(), "no error");
     write("parents.npy", {1, 1}, {-1});
     EXPECT_EQ(message(), "parents.npy: has the shape (1, 1): it must be (m,)");
+    std::filesystem::remove(folder / "parents.npy");
+    for (const char* name : {"nodes.npy", "boxes.npy", "primitives.npy"}) // numpy.array([])
+        write_bytes(folder / name, check::npy_bytes(std::array{std::size_t{0}}, {}, false));
+    EXPECT_TRUE(check::check_tree(check::read_tree(folder.path()), {}).passes());
     EXPECT_EQ(message_of([&] { check::read_tree(folder / "missing"); }), "missing: does not exist");
     EXPECT_EQ(message_of([&] { check::read_tree(folder / "nodes.npy"); }),
               "nodes.npy: is neither a folder nor a .json file");
