@@ -15,7 +15,8 @@ namespace {
 
 using images::ImageError;
 
-/// An array of the given number of axes and, in all but the first, of the given extents (0: any).
+/// An array of the given extents in all axes but the first (0: any). One of a single axis may have a
+/// second one of extent 1. One without elements may have any shape and type.
 /// Throws ImageError.
 NpyArray read_shaped(const std::filesystem::path& path, bool integers,
                      const std::vector<std::size_t>& extents, const char* expected)
@@ -26,9 +27,11 @@ NpyArray read_shaped(const std::filesystem::path& path, bool integers,
         throw ImageError(
             path, "holds " + array.type +
                       (integers ? ": there must be integers" : ": there must be float32 or float64"));
-    bool fits = array.shape.size() == extents.size() + 1;
+    std::vector<std::size_t> shape = array.shape;
+    if (extents.empty() && shape.size() == 2 && shape[1] == 1) shape.pop_back();
+    bool fits = shape.size() == extents.size() + 1;
     for (std::size_t axis = 0; fits && axis < extents.size(); ++axis)
-        fits = extents[axis] == 0 || array.shape[axis + 1] == extents[axis];
+        fits = extents[axis] == 0 || shape[axis + 1] == extents[axis];
     if (!fits)
         throw ImageError(path, "has the shape " + shape_text(array.shape) + ": it must be " + expected);
     return array;

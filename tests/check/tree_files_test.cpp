@@ -110,12 +110,12 @@ TEST(TreeFiles, NameWhatIsWrongWithATree)
     write("boxes.npy", {1, 6}, {0, 0, 0, 1, 1, 1});
     EXPECT_EQ(message(), "boxes.npy: holds int32: there must be float32 or float64");
     write_bytes(folder / "boxes.npy", check::primitives_bytes(std::vector<ref::Aabb>(1), {}));
+    write("primitives.npy", {1, 2}, {0, 0});
+    EXPECT_EQ(message(), "primitives.npy: has the shape (1, 2): it must be (n,)");
     write("primitives.npy", {1, 1}, {0});
-    EXPECT_EQ(message(), "primitives.npy: has the shape (1, 1): it must be (n,)");
-    write("primitives.npy", {1}, {0});
     EXPECT_EQ(message(), "no error");
-    write("parents.npy", {1, 1}, {-1});
-    EXPECT_EQ(message(), "parents.npy: has the shape (1, 1): it must be (m,)");
+    write("parents.npy", {1, 2}, {-1, -1});
+    EXPECT_EQ(message(), "parents.npy: has the shape (1, 2): it must be (m,)");
     std::filesystem::remove(folder / "parents.npy");
     for (const char* name : {"nodes.npy", "boxes.npy", "primitives.npy"}) // numpy.array([])
         write_bytes(folder / name, check::npy_bytes(std::array{std::size_t{0}}, {}, false));

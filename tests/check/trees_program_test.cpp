@@ -199,4 +199,17 @@ TEST(CheckBuilderCommand, RejectsBadUsageInOneLine)
     EXPECT_EQ(folder.entries(), 0U);
 }
 
+TEST(OwnCodeDocument, NamesEveryKindOfInputAndEveryProperty)
+{
+    const std::string text =
+        cli_test::read_bytes(std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "docs/own-code.md");
+    for (const check::InputKind kind : check::input_kinds)
+        EXPECT_TRUE(says(text, "`" + name(kind) + "`")) << name(kind);
+    const TreeOnDisk files;
+    const auto boxes = check::input_boxes(check::InputKind::uniform, 10, 1);
+    for (const check::Property& property :
+         check_tree(files.built, boxes, {true, 9, 30, false}).properties)
+        EXPECT_TRUE(says(text, "| `" + property.name + "` | ")) << property.name;
+}
+
 } // namespace
