@@ -27,8 +27,9 @@ struct Planned {
 
 // Around the sizes of warps and blocks; 65537 exceeds 16 bits, 262145 is the first n beyond a grid of
 // 256 x 1024 threads.
-constexpr std::array small_sizes = {1, 2, 3, 4, 5, 6, 7, 8, 9, 31, 32, 33, 255, 256, 257, 300, 1025};
-constexpr std::array large_sizes = {4097, 65537, 262145, 1 << 20};
+constexpr std::array<std::size_t, 17> small_sizes = {1,  2,  3,  4,   5,   6,   7,   8,   9,
+                                                     31, 32, 33, 255, 256, 257, 300, 1025};
+constexpr std::array<std::size_t, 4> large_sizes = {4097, 65537, 262145, 1 << 20};
 constexpr std::array large_kinds = {InputKind::uniform, InputKind::coincident, InputKind::duplicated,
                                     InputKind::grid};
 
@@ -141,7 +142,7 @@ private:
     /// is the one to report.
     void keep_smallest(const std::vector<ref::Aabb>& boxes)
     {
-        BuilderReport::Smallest& smallest = *report_.smallest;
+        SmallestFailure& smallest = *report_.smallest;
         static_cast<Failure&>(smallest) = {boxes, report_.first->problem};
         Problem last;
         constexpr std::size_t runs = 5;

@@ -32,6 +32,13 @@ struct Failure {
     Problem problem;
 };
 
+/// The smallest input that was found to fail.
+struct SmallestFailure : Failure {
+    std::size_t tries = 0;        // runs of the builder that shrinking took
+    std::size_t failed_again = 0; // of `runs_again` further runs on it
+    std::size_t runs_again = 0;
+};
+
 struct BuilderReport {
     /// What became of one kind of input. After its first failure no more inputs of a kind are tried.
     struct Kind {
@@ -45,14 +52,9 @@ struct BuilderReport {
     std::size_t planned = 0;   // inputs
     bool budget_spent = false; // before all inputs were tried
     bool stopped = false;
-    double slowest_seconds = 0.0; // of an input that passed
-    std::optional<Failure> first; // the first input that failed
-    struct Smallest : Failure {
-        std::size_t tries = 0;        // runs of the builder that shrinking took
-        std::size_t failed_again = 0; // of `runs_again` further runs on it
-        std::size_t runs_again = 0;
-    };
-    std::optional<Smallest> smallest; // the first one, shrunk
+    double slowest_seconds = 0.0;            // of an input that passed
+    std::optional<Failure> first;            // the first input that failed
+    std::optional<SmallestFailure> smallest; // the first one, shrunk
 
     [[nodiscard]] bool passes() const { return !first && !stopped; }
 };

@@ -112,7 +112,7 @@ std::string describe(const BuilderReport& report)
             << (report.stopped ? ", then interrupted" : "") << "\n";
     if (!report.smallest) return out.str();
 
-    const BuilderReport::Smallest& smallest = *report.smallest;
+    const SmallestFailure& smallest = *report.smallest;
     out << "The smallest input that fails (" << plural(smallest.tries, "run", "runs")
         << " to find it): " << plural(smallest.boxes.size(), "primitive", "primitives") << "\n";
     print_input(out, smallest.boxes);
