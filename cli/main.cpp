@@ -1,6 +1,8 @@
 // The program: chooses the subcommand, and turns every error into one line and an exit status.
 
 #include "cli/bvh_command.h"
+#include "cli/check_builder_command.h"
+#include "cli/check_tree_command.h"
 #include "cli/command.h"
 #include "cli/compare_command.h"
 #include "cli/counts.h"
@@ -84,6 +86,8 @@ int main(int argc, char** argv)
     cli::add_compare_command(program, work);
     cli::add_trade_command(program, work);
     cli::add_extremes_command(program, work);
+    cli::add_check_tree_command(program, work);
+    cli::add_check_builder_command(program, work);
     cli::take_exponents(program);
 
     const int status = run(program, work, argc, argv);
