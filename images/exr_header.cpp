@@ -92,9 +92,9 @@ double bytes_per_pixel(const Imf::ChannelList& channels)
     return bytes;
 }
 
-/// The most bytes of pixels that one byte of a file can stand for. Deflate: 1032, and PXR24 has dropped a
-/// quarter of each float before; run lengths and Huffman codes: less. DWA writes for 64 pixels of equal
-/// value one coefficient and one end of block, both of two bytes, and deflates those.
+/// The most bytes of pixels that one byte of a file can stand for. Deflate: 1032, and PXR24 has dropped
+/// a quarter of each float before; run lengths and Huffman codes: less. DWA writes for 64 pixels of
+/// equal value one coefficient and one end of block, both of two bytes, and deflates those.
 double best_ratio(Imf::Compression method)
 {
     return method == Imf::DWAA_COMPRESSION || method == Imf::DWAB_COMPRESSION ? 64.0 * 1032.0 : 1376.0;
@@ -116,14 +116,13 @@ void check_pixels(const fs::path& path, const Imf::Header& header, bool tiled, d
         if (std::max(width, static_cast<double>(size.width)) * height *
                 bytes_per_pixel(header.channels()) >
             always_allowed + 4.0 * raw)
-            throw ImageError(path, "absurd tiles of " +
-                                       std::to_string(header.tileDescription().xSize) + "x" +
-                                       std::to_string(header.tileDescription().ySize) + " pixels");
+            throw ImageError(path, "absurd tiles of " + std::to_string(header.tileDescription().xSize) +
+                                       "x" + std::to_string(header.tileDescription().ySize) + " pixels");
     }
     if (raw > best_ratio(header.compression()) * file_bytes || 8.0 * chunks > file_bytes)
-        throw ImageError(path, "truncated or damaged: " +
-                                   std::to_string(static_cast<long long>(file_bytes)) +
-                                   " bytes cannot hold " + size.text() + " pixels");
+        throw ImageError(path,
+                         "truncated or damaged: " + std::to_string(static_cast<long long>(file_bytes)) +
+                             " bytes cannot hold " + size.text() + " pixels");
 }
 
 /// Throws if the pictures of this part would be far larger than its pixels: a small file can state a
@@ -131,7 +130,7 @@ void check_pixels(const fs::path& path, const Imf::Header& header, bool tiled, d
 void check_display(const fs::path& path, const Imf::Header& header)
 {
     constexpr double always_allowed = 1 << 24; // pixels of all pictures together
-    double pictures = 2.0;                     // the mean and its standard error
+    double pictures = 1.0;                     // the mean, then its standard error and layers
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
         pictures += std::string_view(channel.name()).ends_with(".R") ? 1.0 : 0.0;
     const Size data = size_of(header.dataWindow());

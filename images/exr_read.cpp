@@ -55,7 +55,8 @@ public:
         for (std::size_t channel = 0; channel < 3; ++channel)
             add(buffer, channel_name(layer, channel), Imf::FLOAT, planes[channel]);
         read(buffer);
-        Image image = displayed([&](std::size_t i) { return Rgb(planes[0][i], planes[1][i], planes[2][i]); });
+        Image image =
+            displayed([&](std::size_t i) { return Rgb(planes[0][i], planes[1][i], planes[2][i]); });
         if (to_rec709_)
             for (Rgb& pixel : image.pixels) pixel = *to_rec709_ * pixel;
         return image;
@@ -81,8 +82,7 @@ public:
             add(buffer, channel_name(name, channel) + ".hi", Imf::UINT, hi);
             add(buffer, channel_name(name, channel) + ".lo", Imf::UINT, lo);
             read(buffer);
-            for (std::size_t i = 0; i < hi.size(); ++i)
-                planes[channel].push_back(join({hi[i], lo[i]}));
+            for (std::size_t i = 0; i < hi.size(); ++i) planes[channel].push_back(join({hi[i], lo[i]}));
         }
         return displayed([&](std::size_t i) { return Rgb(planes[0][i], planes[1][i], planes[2][i]); });
     }

@@ -163,10 +163,10 @@ PictureSource find_picture(const fs::path& path, const std::vector<Imf::Header>&
         if (const auto luminance = parts.find(layer, true)) return *luminance;
         if (const auto part = parts.find_part(layer)) return *part;
         const std::vector<std::string> names = parts.choices();
-        throw ImageError(path, names.empty() ? parts.no_picture(layer)
-                                             : "has no layer " + layer +
-                                                   " of R, G and B; choose one of its layers: " +
-                                                   list_of(names));
+        throw ImageError(path, names.empty()
+                                   ? parts.no_picture(layer)
+                                   : "has no layer " + layer +
+                                         " of R, G and B; choose one of its layers: " + list_of(names));
     }
     for (const bool grey : {false, true}) {
         if (const auto outside = parts.find("", grey)) return *outside;
@@ -177,7 +177,9 @@ PictureSource find_picture(const fs::path& path, const std::vector<Imf::Header>&
                                        " outside layers; choose one of its layers: " + list_of(names));
     }
     if (parts.has_chroma())
-        throw ImageError(path, "has luminance and chroma (Y, RY, BY), which hold colours coarsely; wanted: R, G, B, or Y");
+        throw ImageError(
+            path,
+            "has luminance and chroma (Y, RY, BY), which hold colours coarsely; wanted: R, G, B, or Y");
     throw ImageError(path, parts.no_picture(""));
 }
 

@@ -63,13 +63,14 @@ TEST(ForeignExrChannels, HalfFloatAndWholeNumbersAreRead)
 TEST(ForeignExrChannels, TheOnlyLayerOfColoursIsThePicture)
 {
     for (const char* name : {"left", "Beauty", "ViewLayer.Combined"}) {
-        const ExrPicture picture =
-            read_two(layer_and(name, {{"depth.Z", {7.0f, 7.0f}}, {std::string(name) + ".A", {1.0f, 1.0f}}}));
+        const ExrPicture picture = read_two(
+            layer_and(name, {{"depth.Z", {7.0f, 7.0f}}, {std::string(name) + ".A", {1.0f, 1.0f}}}));
         expect_two_pixels(picture);
         EXPECT_EQ(picture.layer, name);
     }
     // Channels without a layer are the picture, whatever layers there are.
-    ForeignChannels both = layer_and("Gloss", {{"R", {9.0f, 9.0f}}, {"G", {9.0f, 9.0f}}, {"B", {9.0f, 9.0f}}});
+    ForeignChannels both =
+        layer_and("Gloss", {{"R", {9.0f, 9.0f}}, {"G", {9.0f, 9.0f}}, {"B", {9.0f, 9.0f}}});
     const ExrPicture picture = read_two(both);
     EXPECT_EQ(picture.mean.at(0, 0), Rgb(9.0));
     EXPECT_EQ(picture.layer, "");
@@ -115,9 +116,9 @@ TEST(ForeignExrChannels, HalvedChromaIsRefused)
         file.setFrameBuffer(pixels.data(), 1, 4);
         file.writePixels(4);
     }
-    const std::string error =
-        error_of<images::ImageError>([&] { images::read_exr(folder / "a.exr"); });
-    EXPECT_NE(error.find("a.exr: has luminance and chroma (Y, RY, BY), which hold colours coarsely; wanted: R, G, B, or Y"),
+    const std::string error = error_of<images::ImageError>([&] { images::read_exr(folder / "a.exr"); });
+    EXPECT_NE(error.find("a.exr: has luminance and chroma (Y, RY, BY), which hold colours coarsely; "
+                         "wanted: R, G, B, or Y"),
               std::string::npos)
         << error;
 }
@@ -140,8 +141,8 @@ TEST(ForeignExrPrimaries, Rec709IsNotChanged)
 TEST(ForeignExrPrimaries, OtherPrimariesAreConverted)
 {
     // Rec.2020 to Rec.709, ITU-R BT.2087-0, annex 2, in the other direction.
-    const ExrPicture wide = with_primaries(
-        {{0.708f, 0.292f}, {0.170f, 0.797f}, {0.131f, 0.046f}, {0.3127f, 0.3290f}});
+    const ExrPicture wide =
+        with_primaries({{0.708f, 0.292f}, {0.170f, 0.797f}, {0.131f, 0.046f}, {0.3127f, 0.3290f}});
     const auto expect_wide = [](const Rgb& value, const Rgb& wide_value) {
         EXPECT_NEAR(0.6274 * value.r + 0.3293 * value.g + 0.0433 * value.b, wide_value.r, 5e-4);
         EXPECT_NEAR(0.0691 * value.r + 0.9195 * value.g + 0.0114 * value.b, wide_value.g, 5e-4);
@@ -152,7 +153,8 @@ TEST(ForeignExrPrimaries, OtherPrimariesAreConverted)
     expect_wide(wide.layers.at("Gloss").at(1, 0), Rgb(4.0, 5.0, 6.0));
 
     // X, Y, Z as primaries: IEC 61966-2-1.
-    const ExrPicture xyz = with_primaries({{1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, 0.0f}, {1.0f / 3, 1.0f / 3}});
+    const ExrPicture xyz =
+        with_primaries({{1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, 0.0f}, {1.0f / 3, 1.0f / 3}});
     const Rgb value = xyz.mean.at(0, 0);
     EXPECT_NEAR(value.r, 3.2406 * 1.0 - 1.5372 * 2.0 - 0.4986 * 3.0, 2e-3);
     EXPECT_NEAR(value.g, -0.9689 * 1.0 + 1.8758 * 2.0 + 0.0415 * 3.0, 2e-3);

@@ -200,8 +200,8 @@ TEST(DamagedExr, ATruncatedForeignFileIsAnErrorOrLacksOnlyWhatIsNotRead)
 
 RC_GTEST_PROP(DamagedExr, AlteredBytesNeverCrashTheReader, ())
 {
-    std::string bytes = *rc::gen::element(sound_file(), foreign_files()[0], foreign_files()[1],
-                                          foreign_files()[2]);
+    std::string bytes =
+        *rc::gen::element(sound_file(), foreign_files()[0], foreign_files()[1], foreign_files()[2]);
     const int alterations = *rc::gen::inRange(1, 6);
     // Half of the changes hit the header: most of the file is compressed pixels.
     const std::size_t range = std::min(bytes.size(), *rc::gen::element<std::size_t>(1200, bytes.size()));

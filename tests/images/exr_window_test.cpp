@@ -70,9 +70,10 @@ TEST(ForeignExrWindow, AWindowOutsideThePictureIsAnError)
     const TemporaryFolder folder;
     const Imath::Box2i data = box(7, 0, 9, 1);
     write_foreign(folder / "a.exr", Imf::Header(box(0, 0, 6, 4), data), places(data));
-    EXPECT_EQ(error_of_file(folder / "a.exr"),
-              "has no pixel in its display window: its data window is (7, 0) to (9, 1), its display window "
-              "(0, 0) to (6, 4)");
+    EXPECT_EQ(
+        error_of_file(folder / "a.exr"),
+        "has no pixel in its display window: its data window is (7, 0) to (9, 1), its display window "
+        "(0, 0) to (6, 4)");
 }
 
 TEST(ForeignExrWindow, TheFinestLevelOfTilesIsRead)
@@ -118,10 +119,10 @@ TEST(ForeignExrParts, TheFirstPartWithAPictureIsRead)
     const Imath::Box2i small = box(1, 1, 2, 2);
     const Imath::Box2i whole = box(0, 0, 5, 3);
     const std::vector<float> depth(24, 7.0f);
-    write_foreign_parts(folder / "a.exr",
-                        {part("depth", display, whole), part("left", display, small),
-                         part("right", display, whole)},
-                        {{{"Z", depth}}, places(small), places(whole)});
+    write_foreign_parts(
+        folder / "a.exr",
+        {part("depth", display, whole), part("left", display, small), part("right", display, whole)},
+        {{{"Z", depth}}, places(small), places(whole)});
     EXPECT_EQ(images::read_exr(folder / "a.exr").mean, displayed(display, small));
     // A part may be asked for by its name.
     EXPECT_EQ(images::read_exr(folder / "a.exr", "right").mean, displayed(display, whole));
