@@ -1,6 +1,7 @@
 // The program: chooses the subcommand, and turns every error into one line and an exit status.
 
 #include "cli/bvh_command.h"
+#include "cli/check_renderer_command.h"
 #include "cli/command.h"
 #include "cli/compare_command.h"
 #include "cli/counts.h"
@@ -82,6 +83,7 @@ int main(int argc, char** argv)
     cli::add_bvh_command(program, work);
     cli::add_golden_command(program, work);
     cli::add_compare_command(program, work);
+    cli::add_check_renderer_command(program, work);
     cli::add_trade_command(program, work);
     cli::add_extremes_command(program, work);
     cli::take_exponents(program);
