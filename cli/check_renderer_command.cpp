@@ -110,20 +110,22 @@ ExitStatus check_renderer_command(const CheckRendererCommand& options)
     catch_interrupts();
     check::RendererOptions plan = renderer_options(options);
     RoundProgress progress(options.quiet);
-    plan.progress = [&](const auto& scene, auto has, auto wanted) { progress.update(scene, has, wanted); };
+    plan.progress = [&](const auto& scene, auto has, auto wanted) {
+        progress.update(scene, has, wanted);
+    };
     std::optional<check::PictureFolder> folder;
     if (options.keep.empty())
         folder.emplace();
     else
-        folder.emplace(options.keep,
-                       check::Origin{plan.command, plan.samples, plan.series, plan.ending}, scenes);
+        folder.emplace(options.keep, check::Origin{plan.command, plan.samples, plan.series, plan.ending},
+                       scenes);
     const check::RendererCheck found = check::check_renderer(scenes, plan, *folder);
     progress.end();
     if (!options.report.empty())
         images::write_atomically(options.report, check::renderer_page(found, plan));
     if (options.json)
-        std::cout << check::results_json(found, plan).dump(-1, ' ', false,
-                                                           nlohmann::json::error_handler_t::replace)
+        std::cout << check::results_json(found, plan)
+                         .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
                   << std::endl;
     else
         std::cout << check::results_table(found) << std::flush;
@@ -141,10 +143,11 @@ void add_check_renderer_command(CLI::App& program, Work& work)
     CLI::App* command = program.add_subcommand(
         "check-renderer", "Check your own renderer: render the scenes with it, and judge the pictures");
     add_check_renderer_options(*command, *options);
-    command->footer("Placeholders: {scene} {width} {height} {samples} {seed} {max_edges} {out}.\n"
-                    "Exit status: 0 all PASS, 1 one FAILs or has no picture, 3 INCONCLUSIVE, 2 bad input.\n"
-                    "Example: plumbline check-renderer --without glass --report page.html -- \\\n"
-                    "    ./mine {scene} --spp {samples} --seed {seed} --size {width}x{height} -o {out}");
+    command->footer(
+        "Placeholders: {scene} {width} {height} {samples} {seed} {max_edges} {out}.\n"
+        "Exit status: 0 all PASS, 1 one FAILs or has no picture, 3 INCONCLUSIVE, 2 bad input.\n"
+        "Example: plumbline check-renderer --without glass --report page.html -- \\\n"
+        "    ./mine {scene} --spp {samples} --seed {seed} --size {width}x{height} -o {out}");
     command->callback(
         [options, &work] { work = [options] { return check_renderer_command(*options); }; });
 }

@@ -17,11 +17,14 @@ void add_check_renderer_options(CLI::App& command, CheckRendererCommand& options
 {
     command.add_option("command", options.command,
                        "After --: the renderer and its arguments, with placeholders");
-    command.add_option("--scenes", options.scenes, "Names of goldens, as a,b [all]")->delimiter(',');
+    command.add_option("--scenes", options.scenes, "Names of goldens, as a,b [all]")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command
         .add_option("--without", options.without,
                     "Features that the renderer does not have, or scenes to leave out")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command.add_flag("--list", options.list, "List the scenes and their features, and do no more");
     command.add_option("--suite", options.suite,
                        "Folder with scenes/ and golden/renders/ [this one, or the program's]");
@@ -72,7 +75,8 @@ void check(const CheckRendererCommand& options)
         if (std::ranges::none_of(options.command, [&](const std::string& word) {
                 return word.find(needed) != std::string::npos;
             }))
-            throw std::invalid_argument(std::string("the renderer's command does not contain ") + needed);
+            throw std::invalid_argument(std::string("the renderer's command does not contain ") +
+                                        needed);
     if (options.budget != options.budget || options.timeout != options.timeout ||
         options.error != options.error)
         throw std::invalid_argument("--budget, --timeout and --error expect numbers, and got a NaN");

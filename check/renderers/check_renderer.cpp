@@ -98,8 +98,8 @@ private:
         }
         PictureTask again = task;
         again.out = "picture" + options_.ending;
-        scene.add_missing({attempt.failure, attempt.last_lines,
-                           shell_line(words_for(options_.command, again))});
+        scene.add_missing(
+            {attempt.failure, attempt.last_lines, shell_line(words_for(options_.command, again))});
     }
 
     const RendererOptions& options_;
@@ -110,9 +110,8 @@ private:
 
 bool mentions(const std::vector<std::string>& command, const std::string& placeholder)
 {
-    return std::ranges::any_of(command, [&](const std::string& word) {
-        return word.find(placeholder) != std::string::npos;
-    });
+    return std::ranges::any_of(
+        command, [&](const std::string& word) { return word.find(placeholder) != std::string::npos; });
 }
 
 bool failed(SceneVerdict verdict)
@@ -180,8 +179,7 @@ std::vector<std::string> in_common(const RendererCheck& check)
         sentences.push_back(std::move(diagnosis));
     std::vector<std::string> causes = causes_of(check, {SceneVerdict::fail, SceneVerdict::no_picture});
     // Two mistakes at once: a crash in some scenes, and wrong pictures of others.
-    const bool both =
-        count(check, SceneVerdict::fail) > 0 && count(check, SceneVerdict::no_picture) > 0;
+    const bool both = count(check, SceneVerdict::fail) > 0 && count(check, SceneVerdict::no_picture) > 0;
     if (causes.empty() && both) {
         for (const std::string& cause : causes_of(check, {SceneVerdict::fail}))
             causes.push_back("Of those with a wrong picture: " + cause);
@@ -194,8 +192,8 @@ std::vector<std::string> in_common(const RendererCheck& check)
 
 std::size_t count(const RendererCheck& check, SceneVerdict verdict)
 {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(check.scenes, [&](const SceneCheck& scene) { return scene.verdict() == verdict; }));
+    return static_cast<std::size_t>(std::ranges::count_if(
+        check.scenes, [&](const SceneCheck& scene) { return scene.verdict() == verdict; }));
 }
 
 } // namespace check

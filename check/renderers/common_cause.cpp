@@ -10,9 +10,9 @@ namespace check {
 
 namespace {
 
-constexpr double level = 0.01;       // of a statement that may hold by chance
-constexpr std::size_t fewest = 4;    // scenes with a verdict, for any statement
-using Scenes = std::vector<bool>;    // one entry per scene: whether it belongs to the set
+constexpr double level = 0.01;          // of a statement that may hold by chance
+constexpr std::size_t fewest = 4;       // scenes with a verdict, for any statement
+using Scenes = std::vector<bool>;       // one entry per scene: whether it belongs to the set
 using Names = std::vector<std::string>; // phrases that describe one and the same set
 
 /// Sets of scenes, each with all phrases that describe it, in the order of the features.
@@ -84,8 +84,10 @@ std::string all_scenes(std::size_t count)
 
 std::string exactly(const Described& set, std::size_t failed, std::size_t passed)
 {
-    return all_scenes(failed) + " with " + joined(set.names) + (failed == 1 ? " fails, and " : " fail, and ") +
-           (passed == 1 ? "the only other one passes." : "all " + std::to_string(passed) + " others pass.");
+    return all_scenes(failed) + " with " + joined(set.names) +
+           (failed == 1 ? " fails, and " : " fail, and ") +
+           (passed == 1 ? "the only other one passes."
+                        : "all " + std::to_string(passed) + " others pass.");
 }
 
 /// The chance that `failed` scenes, drawn at random of `all`, are all among `marked` of them: binomial

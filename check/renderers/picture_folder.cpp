@@ -68,8 +68,8 @@ PictureFolder::PictureFolder() : kept_(false)
 {
     std::string name = (fs::temp_directory_path() / "plumbline-check-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
-        throw std::runtime_error(name + ": a temporary folder cannot be made: " +
-                                 std::generic_category().message(errno));
+        throw std::runtime_error(
+            name + ": a temporary folder cannot be made: " + std::generic_category().message(errno));
     folder_ = name;
 }
 

@@ -19,7 +19,7 @@ struct PictureTask {
     int width, height;
     std::uint64_t samples; // per pixel
     std::uint64_t seed;
-    std::string max_edges; // of the longest path, the camera's edge counted; or "unlimited"
+    std::string max_edges;     // of the longest path, the camera's edge counted; or "unlimited"
     std::filesystem::path out; // .exr or .pfm
 };
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string_view>
 
 namespace check {
@@ -74,7 +75,10 @@ std::string cell(const std::string& text)
 
 std::string percent(double value)
 {
-    return std::isfinite(value) ? golden::say(100.0 * value, 5) + "%" : "–";
+    if (!std::isfinite(value)) return "–";
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.2f%%", 100.0 * value);
+    return text.data();
 }
 
 std::string row_html(const SceneCheck& scene)
@@ -132,7 +136,7 @@ SceneVerdict worst_of(const RendererCheck& check)
     if (count(check, SceneVerdict::fail) + count(check, SceneVerdict::no_picture) > 0)
         return SceneVerdict::fail;
     return count(check, SceneVerdict::inconclusive) > 0 ? SceneVerdict::inconclusive
-                                                         : SceneVerdict::pass;
+                                                        : SceneVerdict::pass;
 }
 
 } // namespace
@@ -145,7 +149,8 @@ Image difference_picture(const golden::Golden& golden, const std::vector<Image>&
     Image result(golden.mean.width, golden.mean.height);
     for (std::size_t i = 0; i < result.pixels.size(); ++i) {
         const double of_golden = mean_of(golden.standard_error.pixels[i]);
-        const double own = pictures.size() > 1 ? mean_of(error.pixels[i]) : of_golden * std::sqrt(batches);
+        const double own =
+            pictures.size() > 1 ? mean_of(error.pixels[i]) : of_golden * std::sqrt(batches);
         const double expected = mean_of(golden.mean.pixels[i]);
         const double difference = mean_of(film.mean().pixels[i]) - expected;
         const double rounding = 2e-6 * std::abs(expected); // as the comparison allows
@@ -163,25 +168,27 @@ std::string renderer_page(const RendererCheck& check, const RendererOptions& opt
     std::string rows;
     std::string scenes;
     // Those that fail first: they are why the page is read.
-    for (const SceneVerdict verdict : {SceneVerdict::no_picture, SceneVerdict::fail,
-                                       SceneVerdict::inconclusive, SceneVerdict::pass})
+    for (const SceneVerdict verdict :
+         {SceneVerdict::no_picture, SceneVerdict::fail, SceneVerdict::inconclusive, SceneVerdict::pass})
         for (const SceneCheck& scene : check.scenes)
             if (scene.verdict() == verdict) {
                 rows += row_html(scene);
                 scenes += scene_html(scene);
             }
-    const std::string title = html_text("Check of " + (options.command.empty() ? "" : options.command[0]));
+    const std::string title =
+        html_text("Check of " + (options.command.empty() ? "" : options.command[0]));
     const std::string command = html_text(shell_line(options.command));
     const std::string verdicts = summary(check);
     const std::string note = how(check, options);
-    return images::fill(page_parts::page, std::array<images::Mark, 8>{{{"@TITLE@", title},
-                                                                       {"@CLASS@", class_of(worst_of(check))},
-                                                                       {"@SUMMARY@", verdicts},
-                                                                       {"@COMMON@", common},
-                                                                       {"@COMMAND@", command},
-                                                                       {"@HOW@", note},
-                                                                       {"@ROWS@", rows},
-                                                                       {"@SCENES@", scenes}}});
+    return images::fill(page_parts::page,
+                        std::array<images::Mark, 8>{{{"@TITLE@", title},
+                                                     {"@CLASS@", class_of(worst_of(check))},
+                                                     {"@SUMMARY@", verdicts},
+                                                     {"@COMMON@", common},
+                                                     {"@COMMAND@", command},
+                                                     {"@HOW@", note},
+                                                     {"@ROWS@", rows},
+                                                     {"@SCENES@", scenes}}});
 }
 
 } // namespace check

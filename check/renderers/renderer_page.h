@@ -17,6 +17,7 @@ std::string renderer_page(const RendererCheck& check, const RendererOptions& opt
 /// they are brighter, blue where they are darker, white where they agree; full colour from 6 standard
 /// errors on. The standard errors are those of the mean and of the golden together. With one picture,
 /// whose noise is not known, those of the golden's estimator.
-images::Image difference_picture(const golden::Golden& golden, const std::vector<images::Image>& pictures);
+images::Image difference_picture(const golden::Golden& golden,
+                                 const std::vector<images::Image>& pictures);
 
 } // namespace check

@@ -36,7 +36,8 @@ std::string end_of(const std::string& lines, const std::string& indent)
     std::size_t begin = lines.size();
     for (int i = 0; i < 3 && begin != std::string::npos && begin > 0; ++i)
         begin = lines.rfind('\n', begin - 1);
-    std::string text = begin == std::string::npos || lines.empty() ? lines : lines.substr(begin == 0 ? 0 : begin + 1);
+    std::string text =
+        begin == std::string::npos || lines.empty() ? lines : lines.substr(begin == 0 ? 0 : begin + 1);
     for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1))
         text.insert(at + 1, indent);
     return indent + text;
@@ -63,9 +64,9 @@ std::string reason_of(const SceneCheck& scene)
 {
     std::string text = scene.scene().name + ": " + scene.reason() + "\n";
     if (const auto& missing = scene.missing()) {
-        text += missing->last_lines.empty() ? "    It printed nothing.\n"
-                                            : "    The end of its output:\n" +
-                                                  end_of(missing->last_lines, "        ") + "\n";
+        text += missing->last_lines.empty()
+                    ? "    It printed nothing.\n"
+                    : "    The end of its output:\n" + end_of(missing->last_lines, "        ") + "\n";
         text += "    The command: " + missing->command + "\n";
     }
     return text;
@@ -98,8 +99,9 @@ Json json_of(const SceneCheck& scene)
         json["whole"] = Json::array();
         for (std::size_t c = 0; c < golden::channel_count; ++c) {
             const golden::Finding& finding = golden::whole_picture(*comparison, c);
-            json["whole"].push_back(
-                {{"ratio", finding.ratio}, {"low", finding.interval.low}, {"high", finding.interval.high}});
+            json["whole"].push_back({{"ratio", finding.ratio},
+                                     {"low", finding.interval.low},
+                                     {"high", finding.interval.high}});
         }
     }
     if (const auto& missing = scene.missing())
@@ -127,8 +129,8 @@ WholePicture whole_picture(const golden::Comparison& comparison)
 std::string summary(const RendererCheck& check)
 {
     std::string text;
-    for (const SceneVerdict verdict : {SceneVerdict::pass, SceneVerdict::fail, SceneVerdict::no_picture,
-                                       SceneVerdict::inconclusive})
+    for (const SceneVerdict verdict :
+         {SceneVerdict::pass, SceneVerdict::fail, SceneVerdict::no_picture, SceneVerdict::inconclusive})
         if (const std::size_t number = count(check, verdict); number > 0)
             text += (text.empty() ? "" : ", ") + std::to_string(number) + " " + describe(verdict);
     return text;

@@ -14,7 +14,7 @@ namespace check {
 /// The ratio of a scene's whole picture to the golden's in the channel where it differs most; and the
 /// smallest error that would have been seen, in the channel where that is largest.
 struct WholePicture {
-    std::size_t channel; // 0 red, 1 green, 2 blue
+    std::size_t channel;     // 0 red, 1 green, 2 blue
     double ratio, low, high; // NaN where the golden is black
     double visible;          // relative; infinite: none
 };

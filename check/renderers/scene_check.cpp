@@ -3,12 +3,15 @@
 #include "golden/compare.h"
 #include "golden/diagnosis.h"
 #include "golden/independence.h"
+#include "golden/multiplicity.h"
 #include "golden/reason.h"
+#include "golden/statistics.h"
 #include "images/film.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace check {
@@ -28,6 +31,28 @@ double largest(const std::array<double, golden::channel_count>& errors)
     double result = 0.0;
     for (const double error : errors) result = std::fmax(result, error); // ignores NaN: black channels
     return result;
+}
+
+/// With so many pictures, the comparison's own level is kept (docs/comparison.md, section 7).
+constexpr std::size_t enough_for_welch = 64;
+
+/// Whether a FAIL is certain. Welch's degrees of freedom count those of the golden as well, in
+/// proportion to the variances that are found. Of few pictures the variance can be far too small by
+/// chance; then it seems that the golden's noise is all there is, with all its degrees. The degrees of
+/// the pictures alone are never too many [Hsu 1938].
+bool is_certain(const golden::Golden& golden, const golden::Comparison& comparison, std::size_t pictures)
+{
+    if (pictures >= enough_for_welch) return true;
+    if (std::ranges::any_of(comparison.odd, [](const golden::OddPixels& odd) { return odd.wrong; }))
+        return true; // no test of means
+    const golden::Multiplicity multiplicity(golden.functionals, golden::Method::welch);
+    const golden::MeanEstimate nothing{0.0, 0.0, std::numeric_limits<double>::infinity()};
+    const double level = golden::CompareOptions().certainty_level;
+    return std::ranges::any_of(comparison.findings, [&](const golden::Finding& finding) {
+        const golden::MeanEstimate by_pictures{finding.test.z, 1.0, static_cast<double>(pictures) - 1.0};
+        const double p = golden::welch(by_pictures, nothing, 0.0).p;
+        return finding.conclusive && golden::bonferroni(p, multiplicity.of(finding.region.kind)) < level;
+    });
 }
 
 images::Image mean_of(const std::vector<images::Image>& pictures)
@@ -107,6 +132,14 @@ void SceneCheck::judge()
         error_ = beyond_golden_noise * hidden;
         comparison_ = judged(pictures_, error_);
     }
+    if (comparison_->verdict == golden::Verdict::fail &&
+        !is_certain(golden_, *comparison_, pictures_.size())) {
+        comparison_->verdict = golden::Verdict::inconclusive;
+        comparison_->shortfall.reset();
+        golden::give_reason(*comparison_, "Suspicious: " + golden::say_suspicion(*comparison_) +
+                                              ", but " + std::to_string(pictures_.size()) +
+                                              " pictures are too few to be certain.");
+    }
     false_alarm_ += comparison_->false_alarm;
     wanted_ = next();
 }
@@ -137,8 +170,11 @@ void SceneCheck::diagnose()
     const std::vector<images::Image> of =
         dependent_.empty() ? pictures_ : std::vector<images::Image>{pictures_.front()};
     for (const double error : {error_, error_of_diagnosis}) {
-        const auto compared = [&](const std::vector<images::Image>& undone) { return judged(undone, error); };
-        diagnosis_ = golden::diagnose(golden_, *comparison_, of, static_cast<double>(options_.samples), compared);
+        const auto compared = [&](const std::vector<images::Image>& undone) {
+            return judged(undone, error);
+        };
+        diagnosis_ =
+            golden::diagnose(golden_, *comparison_, of, static_cast<double>(options_.samples), compared);
         if (!diagnosis_.empty()) break;
     }
     comparison_->diagnosis = diagnosis_;
@@ -182,9 +218,10 @@ std::string SceneCheck::reason() const
     if (missing_) return "Did not render: " + missing_->why + ".";
     std::string text;
     if (!dependent_.empty())
-        text = "The pictures are not independent: " + dependent_ +
-               ". Does the renderer ignore its seed? Only the first is judged; more samples per pixel (-s) "
-               "would help. ";
+        text =
+            "The pictures are not independent: " + dependent_ +
+            ". Does the renderer ignore its seed? Only the first is judged; more samples per pixel (-s) "
+            "would help. ";
     if (comparison_) return text + comparison_->reason + causes_;
     if (!text.empty()) return text;
     return pictures_.empty() ? "Not rendered before the end of the check."

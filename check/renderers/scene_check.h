@@ -27,11 +27,11 @@ struct Missing {
 };
 
 struct JudgeOptions {
-    std::uint64_t samples;      // per pixel and picture
-    bool limits_edges;          // the renderer is told the longest path
-    double error = 0.005;       // PASS takes that a relative error of the whole picture of this size is seen
-    std::uint64_t first = 16;   // pictures of the first round
-    std::uint64_t most = 256;   // pictures in all
+    std::uint64_t samples; // per pixel and picture
+    bool limits_edges;     // the renderer is told the longest path
+    double error = 0.005;  // PASS takes that a relative error of the whole picture of this size is seen
+    std::uint64_t first = 16; // pictures of the first round
+    std::uint64_t most = 256; // pictures in all
 };
 
 class SceneCheck {
@@ -78,7 +78,8 @@ public:
     [[nodiscard]] double false_alarm() const { return false_alarm_; }
 
 private:
-    [[nodiscard]] golden::Comparison judged(const std::vector<images::Image>& pictures, double error) const;
+    [[nodiscard]] golden::Comparison judged(const std::vector<images::Image>& pictures,
+                                            double error) const;
     void judge_dependent(const std::string& why);
     void diagnose();
     [[nodiscard]] std::uint64_t next() const;

@@ -40,7 +40,8 @@ void expect_known(const std::vector<std::string>& without, const std::vector<std
 {
     const std::vector<Feature> features = all_features();
     for (const std::string& name : without)
-        if (!contains(scenes, name) && std::ranges::find(features, name, &Feature::name) == features.end())
+        if (!contains(scenes, name) &&
+            std::ranges::find(features, name, &Feature::name) == features.end())
             throw std::invalid_argument("--without " + name +
                                         ": no such feature or scene (--list lists them)");
 }
@@ -68,7 +69,8 @@ fs::path find_suite(const std::string& named, const fs::path& program)
         return fs::canonical(named);
     }
     if (is_suite(fs::current_path())) return fs::current_path();
-    for (fs::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
+    for (fs::path folder = program.parent_path(); folder.has_relative_path();
+         folder = folder.parent_path())
         if (is_suite(folder)) return folder;
     throw std::invalid_argument(
         "neither this folder nor one above the program has scenes/ and golden/renders/: name one by "
