@@ -8,6 +8,7 @@
 #include "check/renderers/renderer_results.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
+#include "cli/words_after_dashes.h"
 #include "images/atomic_file.h"
 
 #include <CLI/CLI.hpp>
@@ -144,12 +145,14 @@ void add_check_renderer_command(CLI::App& program, Work& work)
         "check-renderer", "Check your own renderer: render the scenes with it, and judge the pictures");
     add_check_renderer_options(*command, *options);
     command->footer(
-        "Placeholders: {scene} {width} {height} {samples} {seed} {max_edges} {out}.\n"
+        "Placeholders: {scene} {width} {height} {samples} {seed} {max_edges} {out}\n"
         "Exit status: 0 all PASS, 1 one FAILs or has no picture, 3 INCONCLUSIVE, 2 bad input.\n"
         "Example: plumbline check-renderer --without glass --report page.html -- \\\n"
         "    ./mine {scene} --spp {samples} --seed {seed} --size {width}x{height} -o {out}");
-    command->callback(
-        [options, &work] { work = [options] { return check_renderer_command(*options); }; });
+    command->callback([options, &work] {
+        options->command = words_after_dashes();
+        work = [options] { return check_renderer_command(*options); };
+    });
 }
 
 } // namespace cli

@@ -15,8 +15,6 @@ namespace cli {
 
 void add_check_renderer_options(CLI::App& command, CheckRendererCommand& options)
 {
-    command.add_option("command", options.command,
-                       "After --: the renderer and its arguments, with placeholders");
     command.add_option("--scenes", options.scenes, "Names of goldens, as a,b [all]")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -69,7 +67,7 @@ void check(const CheckRendererCommand& options)
     if (options.list) return;
     if (options.command.empty())
         throw std::invalid_argument(
-            "no renderer is given: after --, its command with {scene} and {out}, as in plumbline "
+            "no renderer is given: its command follows --, with {scene} and {out}, as in plumbline "
             "check-renderer -- ./mine {scene} {out} (plumbline check-renderer --help)");
     for (const char* needed : {"{scene}", "{out}"})
         if (std::ranges::none_of(options.command, [&](const std::string& word) {

@@ -11,6 +11,7 @@
 #include "cli/render_command.h"
 #include "cli/standard_output.h"
 #include "cli/trade_command.h"
+#include "cli/words_after_dashes.h"
 #include "cuda/launch/device.h"
 
 #include <CLI/CLI.hpp>
@@ -87,6 +88,7 @@ int main(int argc, char** argv)
     cli::add_trade_command(program, work);
     cli::add_extremes_command(program, work);
     cli::take_exponents(program);
+    cli::take_words_after_dashes(argc, argv, "check-renderer");
 
     const int status = run(program, work, argc, argv);
     if (cli::flush_standard_output()) return status;
