@@ -87,7 +87,7 @@ std::string exactly(const Described& set, std::size_t failed, std::size_t passed
     return all_scenes(failed) + " with " + joined(set.names) +
            (failed == 1 ? " fails, and " : " fail, and ") +
            (passed == 1 ? "the only other one passes."
-                        : "all " + std::to_string(passed) + " others pass.");
+                        : "the " + std::to_string(passed) + " others pass.");
 }
 
 /// The chance that `failed` scenes, drawn at random of `all`, are all among `marked` of them: binomial

@@ -16,7 +16,7 @@ struct Judged {
 
 /// Sentences about the features of the failing scenes, the first that hold of
 ///
-/// - the failing scenes are exactly those with one feature: "All 7 scenes with glass fail, and all 15
+/// - the failing scenes are exactly those with one feature: "All 7 scenes with glass fail, and the 15
 ///   others pass." Features that the same scenes have are named together. It takes four scenes;
 /// - they are exactly those with two features together;
 /// - all of them have one feature, which passing scenes have as well.
