@@ -145,7 +145,8 @@ void add_check_renderer_command(CLI::App& program, Work& work)
         "check-renderer", "Check your own renderer: render the scenes with it, and judge the pictures");
     add_check_renderer_options(*command, *options);
     command->footer(
-        "Placeholders of the command after --:\n    {scene} {width} {height} {samples} {seed} {max_edges} {out}\n"
+        "Placeholders of the command after --:\n    {scene} {width} {height} {samples} {seed} "
+        "{max_edges} {out}\n"
         "Exit status: 0 all PASS, 1 one FAILs or has no picture, 3 INCONCLUSIVE, 2 bad input.\n"
         "Example: plumbline check-renderer --without glass --report page.html -- \\\n"
         "    ./mine {scene} --spp {samples} --seed {seed} --size {width}x{height} -o {out}");

@@ -107,9 +107,10 @@ std::string scene_html(const SceneCheck& scene)
                     figure(difference_picture(scene.golden(), scene.pictures()), 0.0, "difference");
     std::string output;
     if (const auto& missing = scene.missing())
-        output = "<pre>" + html_text(missing->command + "\n\n" +
-                                    (missing->last_lines.empty() ? "It printed nothing."
-                                                                 : missing->last_lines)) + "</pre>\n";
+        output = "<pre>" +
+                 html_text(missing->command + "\n\n" +
+                           (missing->last_lines.empty() ? "It printed nothing." : missing->last_lines)) +
+                 "</pre>\n";
     const std::string name = html_text(scene.scene().name);
     const std::string verdict = describe(scene.verdict());
     const std::string reason = html_text(scene.reason());
