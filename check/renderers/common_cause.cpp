@@ -76,10 +76,10 @@ std::string joined(const Names& names)
     return text;
 }
 
-/// "all 3 scenes", "the only scene"
 std::string all_scenes(std::size_t count)
 {
-    return count == 1 ? "The only scene" : "All " + std::to_string(count) + " scenes";
+    if (count == 1) return "The only scene";
+    return count == 2 ? "Both scenes" : "All " + std::to_string(count) + " scenes";
 }
 
 std::string exactly(const Described& set, std::size_t failed, std::size_t passed)

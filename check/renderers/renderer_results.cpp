@@ -151,7 +151,7 @@ std::string results_table(const RendererCheck& check)
         first = false;
     }
     for (const std::string& sentence : in_common(check)) text += "\n" + sentence + "\n";
-    return text + "\n" + summary(check) + formatted(", after %.3g s\n", check.seconds);
+    return text + "\n" + summary(check) + formatted(", after %.1f s\n", check.seconds);
 }
 
 Json results_json(const RendererCheck& check, const RendererOptions& options)

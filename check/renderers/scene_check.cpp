@@ -1,17 +1,15 @@
 #include "check/renderers/scene_check.h"
 
+#include "check/renderers/certainty.h"
 #include "golden/compare.h"
 #include "golden/diagnosis.h"
 #include "golden/independence.h"
-#include "golden/multiplicity.h"
 #include "golden/reason.h"
-#include "golden/statistics.h"
 #include "images/film.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace check {
@@ -31,28 +29,6 @@ double largest(const std::array<double, golden::channel_count>& errors)
     double result = 0.0;
     for (const double error : errors) result = std::fmax(result, error); // ignores NaN: black channels
     return result;
-}
-
-/// With so many pictures, the comparison's own level is kept (docs/comparison.md, section 7).
-constexpr std::size_t enough_for_welch = 64;
-
-/// Whether a FAIL is certain. Welch's degrees of freedom count those of the golden as well, in
-/// proportion to the variances that are found. Of few pictures the variance can be far too small by
-/// chance; then it seems that the golden's noise is all there is, with all its degrees. The degrees of
-/// the pictures alone are never too many [Hsu 1938].
-bool is_certain(const golden::Golden& golden, const golden::Comparison& comparison, std::size_t pictures)
-{
-    if (pictures >= enough_for_welch) return true;
-    if (std::ranges::any_of(comparison.odd, [](const golden::OddPixels& odd) { return odd.wrong; }))
-        return true; // no test of means
-    const golden::Multiplicity multiplicity(golden.functionals, golden::Method::welch);
-    const golden::MeanEstimate nothing{0.0, 0.0, std::numeric_limits<double>::infinity()};
-    const double level = golden::CompareOptions().certainty_level;
-    return std::ranges::any_of(comparison.findings, [&](const golden::Finding& finding) {
-        const golden::MeanEstimate by_pictures{finding.test.z, 1.0, static_cast<double>(pictures) - 1.0};
-        const double p = golden::welch(by_pictures, nothing, 0.0).p;
-        return finding.conclusive && golden::bonferroni(p, multiplicity.of(finding.region.kind)) < level;
-    });
 }
 
 images::Image mean_of(const std::vector<images::Image>& pictures)

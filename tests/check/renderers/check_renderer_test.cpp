@@ -169,7 +169,7 @@ TEST_F(CheckRenderer, FindsWhatTheFailuresHaveInCommon)
     const std::vector<std::string> all = {"cornell_glass", "furnace_grey", "spot_over_plane",
                                           "door_ajar"};
     const std::vector<std::string> glass = {
-        "All 2 scenes with a mirror or glass fail, and the 2 others pass."};
+        "Both scenes with a mirror or glass fail, and the 2 others pass."};
     const RendererCheck dim = check_fake("glass_dim", all);
     EXPECT_EQ(in_common(dim), glass);
     EXPECT_EQ(summary(dim), "2 PASS, 2 FAIL");
