@@ -4,6 +4,7 @@
 #include "cli/command.h"
 #include "cli/compare_command.h"
 #include "cli/counts.h"
+#include "cli/export_command.h"
 #include "cli/extremes_command.h"
 #include "cli/golden_command.h"
 #include "cli/interrupt.h"
@@ -84,6 +85,7 @@ int main(int argc, char** argv)
     cli::add_compare_command(program, work);
     cli::add_trade_command(program, work);
     cli::add_extremes_command(program, work);
+    cli::add_export_command(program, work);
     cli::take_exponents(program);
 
     const int status = run(program, work, argc, argv);
