@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -253,19 +254,18 @@ std::string binary_file(const Scene& scene, const std::string& json, const std::
     return bytes + rest;
 }
 
-/// `name` as a relative URI [RFC 3986, sec. 2.1].
-std::string uri_of(const std::string& name)
+/// The name of the file of numbers. It is also its URI, so it consists of characters that stand for
+/// themselves in URIs: not every reader decodes others [RFC 3986, sec. 2.3].
+std::string buffer_name(const std::string& file_name)
 {
-    constexpr std::string_view digits = "0123456789ABCDEF";
-    std::string uri;
-    for (const char c : name) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (std::isalnum(byte) != 0 || c == '-' || c == '.' || c == '_' || c == '~')
-            uri += c;
-        else
-            uri.append({'%', digits[byte >> 4U], digits[byte & 15U]});
-    }
-    return uri;
+    std::string name = stem_of(file_name);
+    std::replace_if(
+        name.begin(), name.end(),
+        [](unsigned char c) {
+            return !(c < 128 && std::isalnum(c) != 0) && c != '-' && c != '.' && c != '_';
+        },
+        '_');
+    return name + ".bin";
 }
 
 std::string text_of(const Json& json, int indent)
@@ -285,8 +285,8 @@ Exported to_gltf(const Scene& scene, const Options& options, const std::string& 
         const Json json = writer.write("");
         return {{{file_name, binary_file(scene, text_of(json, -1), writer.bytes())}}, {}};
     }
-    const std::string buffer = stem_of(file_name) + ".bin";
-    const Json json = writer.write(uri_of(buffer));
+    const std::string buffer = buffer_name(file_name);
+    const Json json = writer.write(buffer);
     Exported result;
     if (!writer.bytes().empty()) result.files.push_back({buffer, writer.bytes()});
     result.files.push_back({file_name, text_of(json, 1) + "\n"});
