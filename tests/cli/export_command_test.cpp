@@ -41,7 +41,7 @@ TEST(Export, WritesEveryFormatAtOnceAndListsItsFiles)
 TEST(Export, KeepsTheUnitsOfTheFileAndMovesTheCameraWithFrame)
 {
     const TemporaryFolder folder;
-    // A room of 4 x 4 x 2.5, which other commands scale to about one unit.
+    // Its plane is 20 wide; other commands scale it to about one unit.
     const scenes::Scene scene = scenes::read_scene(scene_file("point_over_plane"));
     const auto exported = [&](const Arguments& options) {
         const Outcome outcome = run(Arguments{"export", scene_file("point_over_plane"), "-q", "-o",
