@@ -25,7 +25,7 @@ public:
         xml_.PushAttribute("version", "3.0.0");
         integrator();
         sensor();
-        for (std::size_t i = 0; i < meshes.size(); ++i) bsdf(meshes[i].material);
+        for (const Mesh& mesh : meshes) bsdf(mesh.material);
         for (const Sphere& sphere : scene_.spheres) bsdf(sphere.material);
         for (std::size_t i = 0; i < meshes.size(); ++i) {
             open("shape", "ply");
