@@ -198,7 +198,18 @@ private:
                                {"material", material}});
     }
 
-    /// A light shines along its local -z, from the origin.
+    static void place(Json& node, const PointLight& light)
+    {
+        node["translation"] = json_of(light.position);
+    }
+    /// A light shines along its local -z.
+    static void place(Json& node, const DirectionalLight& light)
+    {
+        const auto [x, y, z] = frame_of(-light.direction);
+        node["matrix"] = matrix(x, y, z, Vec3(0.0));
+    }
+    static void place(Json& /*node*/, const SpotLight& /*light*/) {} // refused before
+
     void lights()
     {
         for_each_light(scene_, [&](const auto& light, std::size_t index) {
@@ -209,12 +220,7 @@ private:
                                {"color", json_of(scaled.colour)},
                                {"intensity", scaled.scale}});
             Json node = {{"name", light_name(light, index)}};
-            if constexpr (has_position<decltype(light)>)
-                node["translation"] = json_of(light.position);
-            else {
-                const auto [x, y, z] = frame_of(-light.direction);
-                node["matrix"] = matrix(x, y, z, Vec3(0.0));
-            }
+            place(node, light);
             node["extensions"]["KHR_lights_punctual"]["light"] = lights_.size() - 1;
             nodes_.push_back(node);
         });

@@ -47,44 +47,51 @@ Json GltfMaterials::matt(const Rgb& albedo)
     return material;
 }
 
-Json GltfMaterials::describe(std::uint32_t material)
+Json GltfMaterials::describe(const Lambertian& lambertian, const std::string& /*name*/)
 {
-    const Material& kind = scene_->materials[material];
-    const std::string name = material_name(*scene_, material);
-    Json json;
-    if (const auto* lambertian = std::get_if<Lambertian>(&kind)) {
-        json = matt(lambertian->albedo);
-    } else if (const auto* mirror = std::get_if<Mirror>(&kind)) {
-        if (mirror->reflectance != Rgb(1.0))
-            refuse(*scene_, name,
-                   "glTF has no mirror that absorbs: its metals reflect everything at grazing angles");
-        json = base(Rgb(1.0), 1, 0);
-    } else if (const auto* glass = std::get_if<Glass>(&kind)) {
-        if (glass->reflectance != Rgb(1.0))
-            refuse(*scene_, name, "glTF has no glass with a reflectance other than 1");
-        if (glass->ior < 1.0) refuse(*scene_, name, "glTF has no index of refraction below 1");
-        json = base(glass->transmittance, 0, 0);
-        extend(json, "KHR_materials_transmission", "transmissionFactor", 1);
-        extend(json, "KHR_materials_ior", "ior", glass->ior);
-        // Any thickness above 0 says that the surface bounds a volume, in which rays are refracted.
-        extend(json, "KHR_materials_volume", "thicknessFactor", 1);
-    } else {
-        json = matt(Rgb(0.0));
-        if (emits(kind)) {
-            const ScaledColour light = split(std::get<Emission>(kind).radiance);
-            json["emissiveFactor"] = {light.colour.x, light.colour.y, light.colour.z};
-            if (light.scale != 1.0)
-                extend(json, "KHR_materials_emissive_strength", "emissiveStrength", light.scale);
-        }
-    }
-    json["doubleSided"] = !emits(kind);
-    json["name"] = scene_->material_names[material];
+    return matt(lambertian.albedo);
+}
+
+Json GltfMaterials::describe(const Mirror& mirror, const std::string& name)
+{
+    if (mirror.reflectance != Rgb(1.0))
+        refuse(*scene_, name,
+               "glTF has no mirror that absorbs: its metals reflect everything at grazing angles");
+    return base(Rgb(1.0), 1, 0);
+}
+
+Json GltfMaterials::describe(const Glass& glass, const std::string& name)
+{
+    if (glass.reflectance != Rgb(1.0))
+        refuse(*scene_, name, "glTF has no glass with a reflectance other than 1");
+    if (glass.ior < 1.0) refuse(*scene_, name, "glTF has no index of refraction below 1");
+    Json json = base(glass.transmittance, 0, 0);
+    extend(json, "KHR_materials_transmission", "transmissionFactor", 1);
+    extend(json, "KHR_materials_ior", "ior", glass.ior);
+    // Any thickness above 0 says that the surface bounds a volume, in which rays are refracted.
+    extend(json, "KHR_materials_volume", "thicknessFactor", 1);
+    return json;
+}
+
+Json GltfMaterials::describe(const Emission& emission, const std::string& /*name*/)
+{
+    Json json = matt(Rgb(0.0));
+    if (!emits(emission)) return json;
+    const ScaledColour light = split(emission.radiance);
+    json["emissiveFactor"] = {light.colour.x, light.colour.y, light.colour.z};
+    if (light.scale != 1.0)
+        extend(json, "KHR_materials_emissive_strength", "emissiveStrength", light.scale);
     return json;
 }
 
 std::size_t GltfMaterials::add(std::uint32_t material)
 {
-    json_.push_back(describe(material));
+    const Material& kind = scene_->materials[material];
+    const std::string name = material_name(*scene_, material);
+    Json json = std::visit([&](const auto& each) { return describe(each, name); }, kind);
+    json["doubleSided"] = !emits(kind);
+    json["name"] = scene_->material_names[material];
+    json_.push_back(std::move(json));
     return json_.size() - 1;
 }
 

@@ -43,7 +43,11 @@ public:
     [[nodiscard]] const nlohmann::ordered_json& json() const { return json_; }
 
 private:
-    nlohmann::ordered_json describe(std::uint32_t material);
+    // `name` is for messages.
+    nlohmann::ordered_json describe(const Lambertian& lambertian, const std::string& name);
+    nlohmann::ordered_json describe(const Mirror& mirror, const std::string& name);
+    nlohmann::ordered_json describe(const Glass& glass, const std::string& name);
+    nlohmann::ordered_json describe(const Emission& emission, const std::string& name);
     nlohmann::ordered_json matt(const Rgb& albedo);
     void extend(nlohmann::ordered_json& material, const char* extension, const char* name, double value);
 

@@ -48,6 +48,11 @@ def main():
     program = os.environ.get("PLUMBLINE", os.path.join(ROOT, "build", "release", "plumbline"))
     names = given.scenes.split(",") if given.scenes else sorted(
         os.path.splitext(os.path.basename(path))[0] for path in glob.glob(os.path.join(ROOT, "scenes", "*.dae")))
+    for name in names:
+        if not os.path.exists(os.path.join(ROOT, "scenes", name + ".dae")):
+            raise Problem(f"no such scene: {name}")
+    if given.pictures < 2:
+        raise Problem("--pictures: at least 2, because their noise is measured")
     llvm = os.environ.get("DRJIT_LIBLLVM_PATH") or libllvm() or ""
     variant = given.variant or ("llvm_ad_rgb" if llvm else "scalar_rgb")
     python = os.path.join(ROOT, "build", "peers", "venv", "bin", "python")
@@ -109,5 +114,9 @@ def judge(name, program, mitsuba, folder, given):
 if __name__ == "__main__":
     try:
         sys.exit(main())
-    except Problem as problem:
-        sys.exit(f"conformance: {problem}")
+    except (Problem, OSError) as problem:
+        print(f"conformance: {problem}", file=sys.stderr)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        print("conformance: interrupted; the page is unchanged", file=sys.stderr)
+        sys.exit(130)
