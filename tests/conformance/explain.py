@@ -129,7 +129,8 @@ def lamp():
     lower = light[24:]
     return {"segments": count, "unblocked": int((hits == np.inf).sum()),
             "blocked_too_late": int(((hits < np.inf) & (hits > 1 - SHADOW_EPSILON)).sum()),
-            "rows_below": 24, "pixels": int(lower.size), "lit": int((lower > 0).sum())}
+            "rows_below": 24, "pixels": int(lower.size), "lit": int((lower > 0).sum()),
+            "share": float(lower.sum() / light.sum())}
 
 
 print(json.dumps({"ball": ball(), "lamp": lamp()}), file=RESULTS, flush=True)

@@ -61,4 +61,4 @@ def lamp(found):
     return (f"Of {found['segments']} random segments from the walls to the luminaire, {found['unblocked']} miss the bowl, and "
             f"{found['blocked_too_late']} meet it only in their last 0.089%. In Mitsuba's picture of paths of at most 2 edges, "
             f"{found['lit']} of the {found['pixels']} pixels below row {found['rows_below']}, all of which show walls and "
-            "floor, are not black.")
+            f"floor, are not black. Their light is {found['share']:.3%} of the whole picture's.")

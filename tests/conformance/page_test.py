@@ -45,7 +45,8 @@ class Marks(unittest.TestCase):
 
     def test_the_page_has_all_marks_once(self):
         explained = {"ball": [{"edges": 2, "predicted": 0.0, "measured": 1e-4, "error": 1e-4}],
-                     "lamp": {"segments": 1, "unblocked": 2, "blocked_too_late": 3, "rows_below": 4, "pixels": 5, "lit": 6}}
+                     "lamp": {"segments": 1, "unblocked": 2, "blocked_too_late": 3, "rows_below": 4, "pixels": 5, "lit": 6,
+                              "share": 0.5}}
         results = {"version": "V", "pictures": 64, "processor": "P", "scenes": [JUDGED], "explained": explained}
         with open(PAGE, encoding="utf-8") as file:
             text = file.read()
