@@ -6,6 +6,7 @@
 #include "cli/scene_input.h"
 #include "images/atomic_file.h"
 #include "images/file_ending.h"
+#include "scenes/contacts.h"
 #include "scenes/export/gltf.h"
 #include "scenes/export/mitsuba.h"
 #include "scenes/export/pbrt.h"
@@ -128,6 +129,9 @@ ExitStatus export_scene(const ExportCommand& options)
     std::vector<OutputFile> files;
     std::vector<NamedFile> names;
     std::vector<std::string> notices;
+    if (!scenes::contact_notices(scene).empty())
+        notices.push_back(shown_name(options.scene) +
+                          ": other renderers decide by rounding what touches: their pictures differ");
     for (const std::string& path : options.outputs) {
         const fs::path folder = fs::path(path).parent_path();
         scenes::exports::Exported exported =

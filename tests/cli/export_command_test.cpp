@@ -57,6 +57,17 @@ TEST(Export, KeepsTheUnitsOfTheFileAndMovesTheCameraWithFrame)
     EXPECT_EQ(exported({"--frame"}).find(" 2.22 "), std::string::npos);
 }
 
+TEST(Export, WarnsOfSurfacesThatTouch)
+{
+    const TemporaryFolder folder;
+    const std::string message = "other renderers decide by rounding what touches";
+    for (const auto& [scene, touches] : {std::pair("flush_lights", true), {"near_occluder", false}}) {
+        const Outcome outcome = run({"export", scene_file(scene), "-o", (folder / "a.glb").string()});
+        EXPECT_EQ(outcome.status, 0);
+        EXPECT_EQ(outcome.err.find(message) != std::string::npos, touches) << outcome.err;
+    }
+}
+
 struct BadExport {
     const char* name;
     Arguments arguments; // FOLDER stands for one
