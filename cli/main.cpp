@@ -1,10 +1,13 @@
 // The program: chooses the subcommand, and turns every error into one line and an exit status.
 
 #include "cli/bvh_command.h"
+#include "cli/check_builder_command.h"
+#include "cli/check_tree_command.h"
 #include "cli/check_renderer_command.h"
 #include "cli/command.h"
 #include "cli/compare_command.h"
 #include "cli/counts.h"
+#include "cli/export_command.h"
 #include "cli/extremes_command.h"
 #include "cli/golden_command.h"
 #include "cli/interrupt.h"
@@ -87,6 +90,9 @@ int main(int argc, char** argv)
     cli::add_check_renderer_command(program, work);
     cli::add_trade_command(program, work);
     cli::add_extremes_command(program, work);
+    cli::add_check_tree_command(program, work);
+    cli::add_check_builder_command(program, work);
+    cli::add_export_command(program, work);
     cli::take_exponents(program);
     cli::take_words_after_dashes(argc, argv, "check-renderer");
 

@@ -1,6 +1,7 @@
 #include "cli/trade_settings.h"
 
 #include "cli/idle_options.h"
+#include "cli/quoted.h"
 
 #include <CLI/CLI.hpp>
 
@@ -8,19 +9,6 @@
 #include <stdexcept>
 
 namespace cli {
-
-namespace {
-
-/// As a shell reads it.
-std::string quoted(const std::string& argument)
-{
-    if (argument.find_first_of(" '\"\\$&;()<>|*?") == std::string::npos) return argument;
-    std::string text = "'";
-    for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
-
-} // namespace
 
 std::vector<std::string> arguments_of(const Settings& settings, const TradeView& view)
 {

@@ -130,9 +130,9 @@ Axis albedo_axis()
         "The two methods without a renderer draw only the lengths of walks and their throughput.";
     axis.ordinary = 0.5;
     axis.logarithmic = true;
-    axis.values = powers_of_ten(-8, -2, 0.5);
+    axis.values = powers_of_ten(-6, -2, 0.5);
     for (const double value : {0.02, 0.025, 0.03, 0.05, 0.1, 0.2, 0.5}) axis.values.push_back(value);
-    axis.most_cases = 30;
+    axis.most_cases = 15;
     axis.methods = {
         {"ref", Format::binary64,
          albedo_cases([](double absorbed,
