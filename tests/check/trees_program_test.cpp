@@ -182,10 +182,11 @@ TEST(CheckBuilderCommand, KeepsWhatFailedBeforeAnInterruption)
 {
     const TemporaryFolder folder;
     const std::string keep = (folder / "keep.npy").string();
+    const std::string crashed = (folder / "crashed").string();
     const std::string started = (folder / "started").string();
-    // Crashes for every input, and then takes long.
-    const std::string script =
-        "test -e " + started + " && sleep 60; touch " + started + "; kill -SEGV $$";
+    // Crashes in its first run, and takes long in its second.
+    const std::string script = "test -e " + crashed + " && touch " + started + " && sleep 60; touch " +
+                               crashed + "; kill -SEGV $$";
     cli_test::Process process({"check-builder", "--keep", keep, "--only", "grid", "--", "sh", "-c",
                                script + " # {primitives} {tree}"});
     ASSERT_TRUE(cli_test::eventually([&] { return std::filesystem::exists(started); }));
