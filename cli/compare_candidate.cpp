@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <iostream>
 #include <map>
 #include <stdexcept>
 #include <string_view>
@@ -27,9 +28,10 @@ namespace {
 
 constexpr std::string_view batch_prefix = "batch."; // of the layers that render --keep-batches writes
 
-images::ExrPicture read_picture(const fs::path& path, const std::string& layer)
+images::ExrPicture read_picture(const fs::path& path, const CompareCommand& options)
 {
     images::ExrPicture picture;
+    const std::string& layer = options.layer;
     if (images::has_ending(path, ".exr"))
         picture = images::read_exr(path, layer);
     else if (images::has_ending(path, ".pfm") && !layer.empty())
@@ -39,6 +41,8 @@ images::ExrPicture read_picture(const fs::path& path, const std::string& layer)
     else
         throw images::ImageError(path, "is no .exr, .pfm or .dae");
     if (const auto fault = images::say_non_finite(picture.mean)) throw images::ImageError(path, *fault);
+    if (picture.layer != layer && !picture.layer.empty() && !options.quiet)
+        std::cerr << path.string() << ": its layer " << picture.layer << " is compared\n";
     return picture;
 }
 
@@ -115,13 +119,13 @@ JudgedCandidate judge_batches(const golden::Golden& golden, const std::string& f
 
 /// Several pictures, `first` the first of them.
 JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<std::string>& files,
-                               images::ExrPicture first, const std::string& layer)
+                               images::ExrPicture first, const CompareCommand& options)
 {
     std::vector<images::Image> pictures = {first.mean};
     std::map<std::string, std::string> seeds; // and the file that has it
     images::Metadata metadata = first.metadata;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        images::ExrPicture picture = i == 0 ? images::ExrPicture{} : read_picture(files[i], layer);
+        images::ExrPicture picture = i == 0 ? images::ExrPicture{} : read_picture(files[i], options);
         if (i > 0) {
             expect_size(files[i], picture.mean, golden);
             pictures.push_back(std::move(picture.mean));
@@ -184,13 +188,12 @@ JudgedCandidate judge(const golden::Golden& golden, const std::vector<std::strin
         throw std::invalid_argument("--samples is for a single picture or a scene");
     if (scene) return judge_scene(golden, files.front(), options);
 
-    images::ExrPicture first = read_picture(files.front(), options.layer);
+    images::ExrPicture first = read_picture(files.front(), options);
     expect_size(files.front(), first.mean, golden);
     const auto batches = std::count_if(first.layers.begin(), first.layers.end(), [](const auto& layer) {
         return layer.first.starts_with(batch_prefix);
     });
-    JudgedCandidate judged = files.size() > 1
-                                 ? judge_pictures(golden, files, std::move(first), options.layer)
+    JudgedCandidate judged = files.size() > 1 ? judge_pictures(golden, files, std::move(first), options)
                              : batches > 1 && options.layer.empty()
                                  ? judge_batches(golden, files.front(), std::move(first))
                                  : judge_picture(golden, files.front(), std::move(first), options);

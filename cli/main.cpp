@@ -3,15 +3,18 @@
 #include "cli/bvh_command.h"
 #include "cli/check_builder_command.h"
 #include "cli/check_tree_command.h"
+#include "cli/check_renderer_command.h"
 #include "cli/command.h"
 #include "cli/compare_command.h"
 #include "cli/counts.h"
+#include "cli/export_command.h"
 #include "cli/extremes_command.h"
 #include "cli/golden_command.h"
 #include "cli/interrupt.h"
 #include "cli/render_command.h"
 #include "cli/standard_output.h"
 #include "cli/trade_command.h"
+#include "cli/words_after_dashes.h"
 #include "cuda/launch/device.h"
 
 #include <CLI/CLI.hpp>
@@ -84,11 +87,14 @@ int main(int argc, char** argv)
     cli::add_bvh_command(program, work);
     cli::add_golden_command(program, work);
     cli::add_compare_command(program, work);
+    cli::add_check_renderer_command(program, work);
     cli::add_trade_command(program, work);
     cli::add_extremes_command(program, work);
     cli::add_check_tree_command(program, work);
     cli::add_check_builder_command(program, work);
+    cli::add_export_command(program, work);
     cli::take_exponents(program);
+    cli::take_words_after_dashes(argc, argv, "check-renderer");
 
     const int status = run(program, work, argc, argv);
     if (cli::flush_standard_output()) return status;

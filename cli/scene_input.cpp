@@ -71,6 +71,27 @@ void print_notices(const scenes::Scene& scene, const std::string& file)
         std::cerr << shown_name(file) << ": " << notice << '\n';
 }
 
+/// A scene with materials and lights, as the file says it.
+scenes::Scene read_with_camera(const std::string& file, bool frame)
+{
+    if (scenes::is_mesh_file(file))
+        throw std::invalid_argument(
+            file + ": a mesh without lights, which cannot be rendered: plumbline bvh reads such files");
+    scenes::Scene scene = read_collada(file, scenes::Parts::all);
+    place_camera(scene, file, frame);
+    return scene;
+}
+
+/// The scene near the origin. Prints the notices, unless `quiet`.
+scenes::Scene placed_with_notices(scenes::Scene scene, const std::string& file, bool quiet)
+{
+    scene = scenes::placed(std::move(scene));
+    for (std::string& notice : scenes::contact_notices(scene))
+        scene.notices.push_back(std::move(notice));
+    if (!quiet) print_notices(scene, file);
+    return scene;
+}
+
 /// Throws std::invalid_argument for a file name with the ending of a format that is not supported.
 void expect_triangles(const std::string& file)
 {
@@ -91,15 +112,13 @@ std::string shown_name(const std::string& file)
 
 scenes::Scene load_scene(const std::string& file, bool frame, bool quiet)
 {
-    if (scenes::is_mesh_file(file))
-        throw std::invalid_argument(
-            file + ": a mesh without lights, which cannot be rendered: plumbline bvh reads such files");
-    scenes::Scene scene = read_collada(file, scenes::Parts::all);
-    place_camera(scene, file, frame);
-    scene = scenes::placed(std::move(scene));
-    for (std::string& notice : scenes::contact_notices(scene))
-        scene.notices.push_back(std::move(notice));
-    if (!quiet) print_notices(scene, file);
+    return placed_with_notices(read_with_camera(file, frame), file, quiet);
+}
+
+scenes::Scene load_scene_as_written(const std::string& file, bool frame, bool quiet)
+{
+    scenes::Scene scene = read_with_camera(file, frame);
+    (void)placed_with_notices(scene, file, quiet); // for its errors and notices
     return scene;
 }
 

@@ -29,6 +29,9 @@ std::string shown_name(const std::string& file);
 /// scenes::SceneError or std::invalid_argument.
 scenes::Scene load_scene(const std::string& file, bool frame, bool quiet);
 
+/// The same, with the coordinates and intensities of the file: not placed near the origin.
+scenes::Scene load_scene_as_written(const std::string& file, bool frame, bool quiet);
+
 /// The same for a tree, with triangles and spheres only: no lights and no materials are read
 /// (scenes::Parts::geometry). The file may also be one of the formats of scenes::read_mesh.
 scenes::Scene load_triangles(const std::string& file, bool frame, bool quiet);

@@ -50,6 +50,18 @@ double sum_of(const images::Image& image)
     return sum;
 }
 
+/// The sentence for the first of the mistakes without which the pictures PASS.
+std::optional<std::string> first_of(const std::vector<Fault>& faults, const Golden& golden,
+                                    const std::vector<images::Image>& pictures,
+                                    const JudgePictures& judge)
+{
+    for (const Fault& fault : faults)
+        if (const auto without = undone(pictures, fault, golden.mean);
+            without && passes(*without, judge))
+            return "Your picture is " + fault.is + ": with this undone, it PASSes.";
+    return std::nullopt;
+}
+
 std::optional<std::string> constant_factor(const Golden& golden,
                                            const std::vector<images::Image>& pictures, double samples,
                                            const JudgePictures& judge)
@@ -73,16 +85,16 @@ std::optional<std::string> constant_factor(const Golden& golden,
 
 std::string diagnose(const Golden& golden, const Comparison& comparison,
                      const std::vector<images::Image>& pictures, double samples,
-                     const JudgePictures& judge)
+                     const JudgePictures& judge, const std::vector<MakeFaults>& more)
 {
     const bool wrong = comparison.verdict == Verdict::fail ||
                        (comparison.verdict == Verdict::inconclusive && comparison.p < diagnosis_level);
     if (!wrong || pictures.empty()) return "";
-    for (const Fault& fault : usual_faults())
-        if (const auto without = undone(pictures, fault, golden.mean);
-            without && passes(*without, judge))
-            return "Your picture is " + fault.is + ": with this undone, it PASSes.";
-    return constant_factor(golden, pictures, samples, judge).value_or("");
+    if (const auto usual = first_of(usual_faults(), golden, pictures, judge)) return *usual;
+    if (const auto factor = constant_factor(golden, pictures, samples, judge)) return *factor;
+    for (const MakeFaults& make : more)
+        if (const auto found = first_of(make(), golden, pictures, judge)) return *found;
+    return "";
 }
 
 } // namespace golden

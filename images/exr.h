@@ -36,17 +36,25 @@ void write_exr(const std::filesystem::path& path, const Film& film, const Metada
 
 struct ExrPicture {
     Image mean;
+    std::string layer; // that `mean` is; empty: channels outside layers
     std::optional<Image> standard_error;
     Layers layers; // complete R, G, B triples; other channels (depth, alpha, ...) are ignored
     Metadata metadata;
     std::optional<Film> film; // the exact state
 };
 
-/// Reads one of our files or another renderer's: half or float, scan lines or tiles, any order of
-/// channels. The picture is the data window, wherever it lies. Values may be NaN (see
-/// first_non_finite). `layer`, if it is not empty, is the picture to take instead of R, G, B; standard
-/// error and state, which belong to those, are left out then. Throws ImageError for other files: several
-/// parts, deep data, no R, G and B, no such layer, an incomplete state, damage.
+/// Reads one of our files or another renderer's: channels of half, float or whole numbers in any order,
+/// any compression, scan lines or tiles (of several levels the finest), one part or several.
+///
+/// The picture is R, G and B outside layers; else the only layer with R, G and B; else Y, as grey
+/// (exr_source.h). `layer`, if it is not empty, is the layer to take instead, or the part of that name;
+/// standard error and state, which belong to our R, G and B, are left out then. Primaries other than
+/// Rec.709 are converted (exr_primaries.h). The picture has the size of the display window: black where
+/// the data window does not reach, without what lies outside. Values may be NaN (see first_non_finite).
+///
+/// Throws ImageError for other files: no such picture, subsampled channels, deep data, an incomplete
+/// state, damage. No size that a file states makes it allocate more than its length can account for
+/// (exr_header.h).
 ExrPicture read_exr(const std::filesystem::path& path, const std::string& layer = "");
 
 } // namespace images

@@ -19,6 +19,7 @@ namespace {
 struct Header {
     int width, height;
     int channels;
+    double scale;
     bool little_endian;
 };
 
@@ -63,9 +64,13 @@ Header take_header(const fs::path& path, std::string_view& bytes)
     header.channels = kind == "PF" ? 3 : 1;
     header.width = parse<int>(path, take_word(path, bytes));
     header.height = parse<int>(path, take_word(path, bytes));
-    const auto scale = parse<double>(path, take_word(path, bytes, true));
+    const std::string_view word = take_word(path, bytes, true);
+    const auto scale = parse<double>(path, word);
     check_size(path, header.width, header.height);
-    if (scale == 0.0 || !std::isfinite(scale)) throw ImageError(path, "the PFM scale must not be 0");
+    if (scale == 0.0 || !std::isfinite(scale))
+        throw ImageError(path, "the PFM scale is " + std::string(word) +
+                                   ", and must be a finite number other than 0");
+    header.scale = std::abs(scale);
     header.little_endian = scale < 0.0;
     return header;
 }
@@ -121,6 +126,7 @@ Image read_pfm(const fs::path& path)
             pixel = Rgb(take_float(bytes, header.little_endian));
             for (int channel = 1; channel < header.channels; ++channel)
                 pixel[channel] = take_float(bytes, header.little_endian);
+            if (header.scale != 1.0) pixel *= header.scale; // NaNs keep their bits otherwise
         }
     return image;
 }

@@ -13,7 +13,8 @@ void write_pfm(const std::filesystem::path& path, const Image& image);
 
 /// Reads colour (`PF`) or grey (`Pf`, into all three channels), of either byte order. The header must be
 /// exactly two letters, width, height and scale, each with white space behind it, and the file must end
-/// with the last pixel; the scale's size is ignored, its sign is the byte order. Throws ImageError.
+/// with the last pixel. The scale's sign is the byte order; its size multiplies each value, as in pbrt
+/// and Mitsuba. Throws ImageError.
 Image read_pfm(const std::filesystem::path& path);
 
 } // namespace images

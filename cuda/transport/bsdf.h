@@ -51,8 +51,11 @@ inline Material material_of(const scenes::Material& source, bool roulette)
         result.kind = MaterialKind::emission;
         result.color = Rgb(std::get<scenes::Emission>(source).radiance);
     }
-    // Below 1 even on a perfect mirror: every walk ends.
-    result.survival = roulette ? static_cast<float>(std::min(0.95, albedo)) : 1.0f;
+    // Below 1 even on a perfect mirror: every walk ends. Up to 0.999 the throughput does not grow. A
+    // surface that absorbs nothing has less, because the longest walk takes memory
+    // (most_light_vertices).
+    const double survival = albedo < 1.0 ? std::min(0.999, albedo) : 0.95;
+    result.survival = roulette ? static_cast<float>(survival) : 1.0f;
     return result;
 }
 

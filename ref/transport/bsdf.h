@@ -135,8 +135,11 @@ inline double density_of_delta_lobe(const scenes::Material& material, const Vec3
 
 /// The probability that a walk goes on from its `bounce`-th bounce (the first is 1): 1 without roulette,
 /// and before bounce number `roulette_from`. It depends on the vertex alone and not on the walk that led
-/// there, so that the density of a path can be told without knowing from which end it was walked. Below
-/// 1 even on a perfect mirror: every walk ends.
+/// there, so that the density of a path can be told without knowing from which end it was walked. It is
+/// the albedo, so that the throughput stays what it is, and below 1 even on a perfect mirror: every walk
+/// ends. Where the albedo is between 0.999 and 1, the throughput of a walk that meets nothing else
+/// grows, with infinite variance from sqrt(0.999) on (docs/extremes.md, axis albedo). A surface that
+/// absorbs nothing, as of clear glass, has 0.95: such walks end by leaving it, long before that shows.
 inline double survival_probability(const scenes::Material& material, int bounce, bool roulette,
                                    int roulette_from)
 {
@@ -150,7 +153,8 @@ inline double survival_probability(const scenes::Material& material, int bounce,
         }
         double operator()(const scenes::Emission& /*m*/) const { return 0.0; }
     } albedo;
-    return std::min(0.95, std::visit(albedo, material));
+    const double value = std::visit(albedo, material);
+    return value < 1.0 ? std::min(0.999, value) : 0.95;
 }
 
 } // namespace ref

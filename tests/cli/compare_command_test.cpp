@@ -12,6 +12,7 @@
 namespace {
 
 using namespace cli_test;
+using namespace std::string_literals;
 
 /// A golden of a scene that is lit from one direction. Only the edge of the plane has noise, so few
 /// samples are enough for a verdict.
@@ -262,6 +263,16 @@ TEST_F(CompareCommand, ALayerIsChosenByName)
         none.err.find("has no layer Combined of R, G and B; choose one of its layers: View.Combined"),
         std::string::npos)
         << none.err;
+    // Without R, G and B the only layer is taken, and named.
+    std::string bytes = read_bytes(layers);
+    const std::size_t red = bytes.find("\0R\0\2\0\0\0"s); // its name and type in the list of channels
+    ASSERT_NE(red, std::string::npos);
+    bytes[red + 1] = 'S';
+    write_bytes(layers, bytes);
+    const Outcome only = compare({layers}, {"-s", "512"});
+    EXPECT_EQ(only.status, 0) << only.out << only.err;
+    EXPECT_EQ(only.err, layers + ": its layer View.Combined is compared\n");
+    EXPECT_EQ(compare({layers}, {"-s", "512", "-q"}).err, "");
     render(candidate, {"--integrator", "bdpt", "--keep-batches"});
     const Outcome batch = compare({candidate}, {"--layer", "batch.0001"});
     EXPECT_EQ(batch.status, 2);

@@ -49,7 +49,7 @@ TEST(ExtremesCommand, KeepsWhatItHasDoneAndGoesOn)
     TemporaryFolder folder;
     const std::string json = (folder / "e.json").string();
     const std::string whole = (folder / "whole.json").string();
-    const Arguments walk = {"extremes", "ior", "--methods", "ref", "--cases", "20000"};
+    const Arguments walk = {"extremes", "ior", "--methods", "ref", "--cases", "1000"};
     Process process(walk + Arguments{"-o", json});
     ASSERT_TRUE(eventually([&] { return process.catches(SIGINT); }));
     process.send(SIGINT);

@@ -12,7 +12,6 @@
 #include <ImfDeepScanLineOutputFile.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
 #include <ImfStringAttribute.h>
@@ -72,7 +71,7 @@ private:
 
 Imf::Header header(Imf::PixelType type, Imf::Compression compression = Imf::ZIP_COMPRESSION)
 {
-    Imf::Header header(Imath::Box2i(Imath::V2i(0, 0), Imath::V2i(1999, 999)), window);
+    Imf::Header header(window, window);
     for (const char* name : Planes<float>::names) header.channels().insert(name, Imf::Channel(type));
     header.compression() = compression;
     return header;
@@ -146,20 +145,9 @@ TEST(ForeignExr, AttributesOfOthersAreNotOurMetadata)
     expect_the_picture(folder / "a.exr");
 }
 
-TEST(ForeignExr, ChannelsThatAreMissingOrSubsampledAreNamed)
+TEST(ForeignExr, SubsampledChannelsAreNamed)
 {
     const TemporaryFolder folder;
-    Imf::Header grey(window, window);
-    grey.channels().insert("Y", Imf::Channel(Imf::FLOAT));
-    write_scan_lines<float>(folder / "grey.exr", Imf::FLOAT, grey);
-    EXPECT_EQ(error_of_reading(folder / "grey.exr"), "has no channel R; it has Y");
-
-    Imf::Header no_blue(window, window);
-    no_blue.channels().insert("G", Imf::Channel(Imf::FLOAT));
-    no_blue.channels().insert("R", Imf::Channel(Imf::FLOAT));
-    write_scan_lines<float>(folder / "no_blue.exr", Imf::FLOAT, no_blue);
-    EXPECT_EQ(error_of_reading(folder / "no_blue.exr"), "has no channel B; it has G, R");
-
     Imf::Header coarse(14, 8);
     for (const char* name : {"R", "G", "B"})
         coarse.channels().insert(name, Imf::Channel(Imf::HALF, *name == 'G' ? 2 : 1, 1));
@@ -202,17 +190,9 @@ TEST(ForeignExr, OneOfSeveralLayersIsChosenByName)
         << none;
 }
 
-TEST(ForeignExr, SeveralPartsAndDeepDataAreRefused)
+TEST(ForeignExr, DeepDataAreRefused)
 {
     const TemporaryFolder folder;
-    std::vector<Imf::Header> parts(2, header(Imf::FLOAT));
-    parts[0].setName("left");
-    parts[1].setName("right");
-    for (Imf::Header& part : parts) part.setType(Imf::SCANLINEIMAGE);
-    Imf::MultiPartOutputFile((folder / "parts.exr").c_str(), parts.data(), 2);
-    EXPECT_EQ(error_of_reading(folder / "parts.exr"),
-              "holds several parts; only single-part files can be read");
-
     Imf::Header deep = header(Imf::FLOAT, Imf::ZIPS_COMPRESSION);
     deep.setType(Imf::DEEPSCANLINE);
     Imf::DeepScanLineOutputFile((folder / "deep.exr").c_str(), deep);
@@ -233,7 +213,7 @@ TEST(ForeignExr, AnIncompleteStateIsAnErrorAndNoStateIsAllowed)
 
     partial.insert("plumblineBatches", Imf::StringAttribute("3"));
     write_scan_lines<float>(folder / "a.exr", Imf::FLOAT, partial);
-    EXPECT_EQ(error_of_reading(folder / "a.exr").rfind("has no channel state.mean.R.lo", 0), 0u);
+    EXPECT_EQ(error_of_reading(folder / "a.exr"), "has no channel state.mean.R.lo");
 
     partial.channels().insert("state.mean.R.lo", Imf::Channel(Imf::FLOAT));
     write_scan_lines<float>(folder / "a.exr", Imf::FLOAT, partial);

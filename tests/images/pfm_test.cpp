@@ -56,6 +56,16 @@ TEST(Pfm, BigEndianAndGreyFilesAreRead)
     EXPECT_EQ(image.at(1, 0), Rgb(2.0));
 }
 
+TEST(Pfm, ValuesAreTimesTheSizeOfTheScale)
+{
+    const TemporaryFolder folder;
+    write_bytes(folder / "a.pfm", "Pf\n2 1\n0.5\n\x3f\x80\0\0\x40\0\0\0"s);
+    EXPECT_EQ(images::read_pfm(folder / "a.pfm").at(0, 0), Rgb(0.5));
+    EXPECT_EQ(images::read_pfm(folder / "a.pfm").at(1, 0), Rgb(1.0));
+    write_bytes(folder / "a.pfm", "PF\n1 1\n-2.5e1\n\0\0\x80\x3f\0\0\0\x40\0\0\x80\xbf"s);
+    EXPECT_EQ(images::read_pfm(folder / "a.pfm").at(0, 0), Rgb(25.0, 50.0, -25.0));
+}
+
 TEST(Pfm, AFirstPixelThatLooksLikeWhiteSpaceBelongsToThePixels)
 {
     const TemporaryFolder folder;
@@ -88,8 +98,8 @@ TEST(Pfm, MalformedFilesAreErrorsThatSayWhatIsWrong)
     expect("PF\n1000000000 1\n-1\n" + pixel, "absurd size 1000000000x1");
     expect("PF\n65536 65536\n-1\n" + pixel, "absurd size 65536x65536");
     expect("PF\n65536 4096\n-1\n" + pixel, "truncated: 12 bytes of pixels instead of 3221225472");
-    expect("PF\n1 1\n0\n" + pixel, "scale must not be 0");
-    expect("PF\n1 1\nnan\n" + pixel, "scale must not be 0");
+    expect("PF\n1 1\n0\n" + pixel, "scale is 0, and must be a finite number other than 0");
+    expect("PF\n1 1\nnan\n" + pixel, "scale is nan, and must be a finite number other than 0");
     expect("PF\n1 1\n-1\n" + pixel.substr(1), "truncated: 11 bytes");
     expect("PF\n1 1\n-1\n" + pixel + " ", "too long: 13 bytes");
 }

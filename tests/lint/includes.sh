@@ -14,6 +14,7 @@ tracked '*.h' '*.cpp' '*.cu' '*.cuh' | xargs -0 -r awk '
         may["cuda"] = " cuda scenes images "
         may["extremes"] = " extremes ref cuda scenes images "
         may["check"] = " check golden ref scenes images "
+        may["examples"] = " cuda check golden ref scenes images "
         may["cli"] = " cli ref cuda golden trade check extremes scenes images "
         may["docs"] = " docs cli ref cuda golden trade check extremes scenes images "
         may["tests"] = " tests cli ref cuda golden trade check extremes scenes images "

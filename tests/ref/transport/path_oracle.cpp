@@ -56,7 +56,8 @@ double PathOracle::survival(const Place& place, std::size_t bounce) const
     if (const auto* m = std::get_if<scenes::Mirror>(&material(place))) albedo = largest(m->reflectance);
     if (const auto* g = std::get_if<scenes::Glass>(&material(place)))
         albedo = std::max(largest(g->reflectance), largest(g->transmittance));
-    return std::min(albedo, 0.95);
+    if (albedo >= 1.0) return 0.95;
+    return albedo < 0.999 ? albedo : 0.999;
 }
 
 double PathOracle::eye_cosine(const Vec3& w) const

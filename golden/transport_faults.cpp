@@ -1,0 +1,157 @@
+#include "golden/transport_faults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace golden {
+
+namespace {
+
+using images::Image;
+using images::Rgb;
+
+bool is_black(const Image& image)
+{
+    return std::all_of(image.pixels.begin(), image.pixels.end(),
+                       [](const Rgb& pixel) { return pixel == Rgb(0.0); });
+}
+
+void add(Image& sum, const Image& image, double factor = 1.0)
+{
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += factor * image.pixels[i];
+}
+
+/// Gives blocks of this size that have a negative value their mean, unless that is negative. Returns
+/// whether any value is still negative.
+bool spread(Image& image, int channel, int size)
+{
+    bool left = false;
+    for (int top = 0; top < image.height; top += size)
+        for (int start = 0; start < image.width; start += size) {
+            const int bottom = std::min(top + size, image.height);
+            const int end = std::min(start + size, image.width);
+            double sum = 0.0;
+            bool negative = false;
+            for (int y = top; y < bottom; ++y)
+                for (int x = start; x < end; ++x) {
+                    sum += image.at(x, y)[channel];
+                    negative = negative || image.at(x, y)[channel] < 0.0;
+                }
+            left = left || (negative && sum < 0.0);
+            if (!negative || sum < 0.0) continue;
+            for (int y = top; y < bottom; ++y)
+                for (int x = start; x < end; ++x)
+                    image.at(x, y)[channel] = sum / ((bottom - top) * (end - start));
+        }
+    return left;
+}
+
+/// Spreads negative light as rendered_fault says. False if the whole picture is negative.
+bool spread_negative(Image& image)
+{
+    for (int channel = 0; channel < 3; ++channel)
+        for (int size = 1; spread(image, channel, size); size *= 2)
+            if (size > std::max(image.width, image.height)) return false;
+    return true;
+}
+
+/// The mean of 2x2 pixels of `fine` for each pixel, from (2x + dx, 2y + dy) on; NaN where they are
+/// outside.
+Image halved(const Image& fine, int dx, int dy)
+{
+    Image result(fine.width / 2, fine.height / 2);
+    for (int y = 0; y < result.height; ++y)
+        for (int x = 0; x < result.width; ++x) {
+            const int column = 2 * x + dx;
+            const int row = 2 * y + dy;
+            const bool inside = column >= 0 && row >= 0 && column + 1 < fine.width && row + 1 < fine.height;
+            result.at(x, y) = inside ? 0.25 * (fine.at(column, row) + fine.at(column + 1, row) +
+                                               fine.at(column, row + 1) + fine.at(column + 1, row + 1))
+                                     : Rgb(std::numeric_limits<double>::quiet_NaN());
+        }
+    return result;
+}
+
+std::string edges(int number)
+{
+    return std::to_string(number) + (number == 1 ? " edge" : " edges");
+}
+
+} // namespace
+
+Fault rendered_fault(std::string is, Image wrong, Image right)
+{
+    return {std::move(is),
+            [wrong = std::move(wrong), right = std::move(right)](const Image& picture,
+                                                                 const Image& golden) {
+                if (wrong.pixels.size() != picture.pixels.size() || wrong == right)
+                    return std::optional<Image>();
+                Image result = picture;
+                for (std::size_t i = 0; i < result.pixels.size(); ++i) {
+                    const Rgb& from = wrong.pixels[i];
+                    if (std::isnan(from.r) || std::isnan(from.g) || std::isnan(from.b))
+                        result.pixels[i] = golden.pixels[i];
+                    else if (from != right.pixels[i])
+                        result.pixels[i] += right.pixels[i] - from;
+                }
+                return spread_negative(result) ? std::optional(std::move(result)) : std::nullopt;
+            }};
+}
+
+std::vector<Fault> transport_faults(const LightByEdges& light, int longest)
+{
+    if (longest < 1 || light.size() != static_cast<std::size_t>(longest) + 1)
+        throw std::invalid_argument("light of another number of lengths");
+    const Image none(light[0].width, light[0].height);
+    /// The sum of the lengths from `first` to `last`, times `factor`.
+    const auto sum = [&](int first, int last, double factor = 1.0) {
+        Image image = none;
+        for (int k = first; k <= last; ++k) add(image, light[static_cast<std::size_t>(k - 1)], factor);
+        return image;
+    };
+    std::vector<Fault> faults;
+    const auto lacks = [&](const std::string& is, int first, int last) {
+        if (const Image image = sum(first, last); first <= last && !is_black(image))
+            faults.push_back(rendered_fault(is, none, image));
+    };
+    const auto has_twice = [&](const std::string& is, int first, int last) {
+        if (const Image image = sum(first, last); first <= last && !is_black(image))
+            faults.push_back(rendered_fault(is, sum(first, last, 2.0), image));
+    };
+    lacks("without the light of emitters that are seen directly (paths of 1 edge)", 1, 1);
+    has_twice("one in which emitters that are seen directly count twice (paths of 1 edge)", 1, 1);
+    lacks("one of direct light alone (paths of up to 2 edges)", 3, longest);
+    if (longest >= 2) {
+        lacks("without direct light (paths of 2 edges)", 2, 2);
+        has_twice("one in which direct light counts twice (paths of 2 edges)", 2, 2);
+    }
+    if (longest >= 3)
+        has_twice("one in which all light counts twice but for emitters that are seen directly, as if hits "
+                  "of emitters and next events were added without weights",
+                  2, longest);
+    const std::string limit = ", where the golden's have up to " + edges(longest);
+    if (longest >= 4) lacks("one of paths of up to " + edges(longest - 1) + limit, longest, longest);
+    faults.push_back(rendered_fault("one of paths of up to " + edges(longest + 1) + limit,
+                                    sum(longest + 1, longest + 1), none));
+    return faults;
+}
+
+std::vector<Fault> half_pixel_faults(const Image& fine)
+{
+    const Image right = halved(fine, 0, 0);
+    std::vector<Fault> faults;
+    for (const auto& [dx, across] : {std::pair(0, ""), {1, "to the right"}, {-1, "to the left"}})
+        for (const auto& [dy, along] : {std::pair(0, ""), {1, "downwards"}, {-1, "upwards"}}) {
+            if (dx == 0 && dy == 0) continue;
+            const std::string both = dx != 0 && dy != 0 ? " and " : "";
+            // What moves to the right is taken from the left.
+            faults.push_back(rendered_fault(std::string("shifted by half a pixel ") + across + both +
+                                                along,
+                                            halved(fine, -dx, -dy), right));
+        }
+    return faults;
+}
+
+} // namespace golden

@@ -1,0 +1,33 @@
+#pragma once
+
+// What is usually wrong with the light transport of a renderer, and how to undo it with further renders of
+// the golden's scene.
+
+#include "golden/faults.h"
+#include "images/image.h"
+
+#include <string>
+#include <vector>
+
+namespace golden {
+
+/// The mistake of a picture of `wrong` instead of `right`, two renders of the golden's scene: to undo it
+/// adds their difference. Where `wrong` is NaN it is not known, and the golden's pixel stands there.
+/// Light may become negative by the noise of the renders; it is then spread over the least block of
+/// 2^n x 2^n pixels whose mean is not, since no picture has negative light.
+Fault rendered_fault(std::string is, images::Image wrong, images::Image right);
+
+/// The light of a scene by the number of edges of its paths: [k - 1] is that of k edges.
+using LightByEdges = std::vector<images::Image>;
+
+/// Mistakes in which paths of some lengths are missing or too many. `longest`: edges of the golden's
+/// longest paths; `light` has one length more, and `longest` + 1 as size. In the order in which they are
+/// tried: emitters that are seen directly are black, or twice as bright; direct light alone, none, or
+/// twice; every path but those of one edge twice; one edge less or more in the longest path.
+std::vector<Fault> transport_faults(const LightByEdges& light, int longest);
+
+/// The picture was taken half a pixel aside, in one or both directions: samples are at the corners of
+/// pixels, for example. `fine`: the golden's scene with twice the pixels in both directions.
+std::vector<Fault> half_pixel_faults(const images::Image& fine);
+
+} // namespace golden

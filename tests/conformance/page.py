@@ -1,0 +1,64 @@
+"""The tables of docs/results/conformance.md."""
+
+MARK = "<!-- conformance: {} -->"
+
+
+def write_page(path, results):
+    """Replaces what is between the marks of the page. Without explanations, theirs stay as they are."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    text = between(text, "scenes", scenes(results))
+    if "explained" in results:
+        text = between(text, "ball", ball(results["explained"]["ball"]))
+        text = between(text, "lamp", lamp(results["explained"]["lamp"]))
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def between(text, name, new):
+    """`text` with `new` between the marks "begin NAME" and "end NAME"."""
+    begin, end = MARK.format("begin " + name), MARK.format("end " + name)
+    if text.count(begin) != 1 or text.count(end) != 1:
+        raise ValueError(f"not exactly one {begin} and {end}")
+    head, _, rest = text.partition(begin)
+    return head + begin + "\n" + new + "\n" + end + rest.partition(end)[2]
+
+
+def scenes(results):
+    lines = [f"{results['version']}, {results['pictures']} pictures of each scene, {results['processor']}:", "",
+             "| scene | samples per picture | verdict | ratio | 99% interval | smallest visible error |",
+             "|---|---|---|---|---|---|"]
+    for scene in results["scenes"]:
+        if "whole" not in scene:
+            lines.append(f"| `{scene['scene']}` | - | {scene['verdict']} | | | {scene['reason']} |")
+            continue
+        lines.append(row(scene))
+    return "\n".join(lines)
+
+
+def row(scene):
+    """The ratio is that of the channel that is farthest from 1; the smallest visible error that of the worst."""
+    farthest = max((each for each in scene["whole"] if each["ratio"] is not None), key=lambda each: abs(each["ratio"] - 1),
+                   default=None)
+    ratio, interval = "", ""
+    if farthest:
+        ratio = f"{farthest['ratio']:.4f}"
+        interval = f"{farthest['low']:.4f} to {farthest['high']:.4f}"
+    known = [each for each in scene["detectable"] if each is not None]
+    error = f"{max(known):.2%}" if len(known) == len(scene["detectable"]) else "unknown"
+    samples = f"{scene['samples']}" + ("" if scene["integrator"] == "path" else f", `{scene['integrator']}`")
+    return f"| `{scene['scene']}` | {samples} | {scene['verdict']} | {ratio} | {interval} | {error} |"
+
+
+def ball(rows):
+    lines = ["| at most so many edges | predicted excess | measured excess |", "|---|---|---|"]
+    for each in rows:
+        lines.append(f"| {each['edges']} | {each['predicted']:+.3%} | {each['measured']:+.3%} ± {each['error']:.3%} |")
+    return "\n".join(lines)
+
+
+def lamp(found):
+    return (f"Of {found['segments']} random segments from the walls to the luminaire, {found['unblocked']} miss the bowl, and "
+            f"{found['blocked_too_late']} meet it only in their last 0.089%. In Mitsuba's picture of paths of at most 2 edges, "
+            f"{found['lit']} of the {found['pixels']} pixels below row {found['rows_below']}, all of which show walls and "
+            f"floor, are not black. Their light is {found['share']:.3%} of the whole picture's.")
