@@ -68,12 +68,18 @@ check::BuilderReport tried(const CheckBuilderCommand& options, check::BuilderOpt
     }
     const check::Attempts attempts =
         check::command_builder(options.command, format, folder.path(), interrupt_requested);
-    if (!options.input.empty()) return check_on_input(attempts, input.boxes, limits);
     std::optional<Progress> progress;
+    std::optional<Progress> shrinking;
     limits.progress = [&](std::size_t done, std::size_t total) {
         if (!progress) progress.emplace("inputs", 0.0, static_cast<double>(total), options.quiet);
         progress->update(static_cast<double>(done));
     };
+    limits.shrinking = [&](double seconds) {
+        progress.reset();
+        if (!shrinking) shrinking.emplace("shrinking, at most", 0.0, limits.budget, options.quiet);
+        shrinking->update(seconds);
+    };
+    if (!options.input.empty()) return check_on_input(attempts, input.boxes, limits);
     return check_attempts(attempts, limits);
 }
 
@@ -112,7 +118,7 @@ ExitStatus check_builder(const CheckBuilderCommand& options)
     const check::BuilderReport report = tried(options, limits, format);
     if (report.smallest)
         images::write_atomically(options.keep, check::primitives_bytes(report.smallest->boxes, format));
-    if (report.stopped && !report.smallest && !report.first) throw Interrupted{};
+    if (report.stopped && !report.smallest) throw Interrupted{};
     print(report, options);
     return report.stopped ? interrupted : report.passes() ? fine : check_failed;
 }
@@ -131,8 +137,13 @@ void add_check_builder_options(CLI::App& command, CheckBuilderCommand& options)
     command.add_flag("--loose", options.loose, "Boxes may be larger than necessary");
     command.add_option("--max-depth", options.max_depth,
                        "Most edges from the root to a leaf [no limit]");
-    command.add_option("--only", options.kinds, "Kinds of input [all]");
-    command.add_option("--skip", options.skipped, "Kinds of input to leave out");
+    // One word each: a list of words would end at the "--" before the command, and swallow it.
+    command.add_option("--only", options.kinds, "Kinds of input, as grid,flat [all]")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--skip", options.skipped, "Kinds of input to leave out")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command.add_option("--cases", options.cases, "Random inputs besides the planned ones")
         ->check(CLI::Range(0, 1'000'000'000).description(""))
         ->capture_default_str();

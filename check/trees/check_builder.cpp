@@ -97,20 +97,25 @@ public:
     /// Finds the smallest input that fails, if there is one.
     void shrink()
     {
-        if (!report_.first || report_.stopped) return;
+        if (!report_.first) return;
+        static_cast<Failure&>(report_.smallest.emplace()) = *report_.first;
+        if (report_.stopped) return;
         // An endless loop costs its time-out at every step: a program that was fast on all inputs so far
         // need not be waited for as long. The result has the full time again.
         const double limit = report_.first->problem.name == "timeout"
                                  ? std::min(options_.timeout, 0.25 + 20 * report_.slowest_seconds)
                                  : options_.timeout;
-        const double end = seconds_now() + options_.budget;
-        const auto give_up = [&] { return stop() || seconds_now() > end; };
+        const double begin = seconds_now();
+        const auto give_up = [&] {
+            const double seconds = seconds_now() - begin;
+            if (options_.shrinking) options_.shrinking(seconds);
+            return stop() || seconds > options_.budget;
+        };
         const auto fails = [&](const std::vector<ref::Aabb>& boxes) {
             const Attempt attempt = attempts_(boxes, limit);
             return !stop() && problem_of(attempt, boxes, options_.checks).any();
         };
         const ShrunkBoxes shrunk = shrink_boxes(report_.first->boxes, fails, give_up);
-        report_.smallest.emplace();
         report_.smallest->tries = shrunk.tries;
         keep_smallest(shrunk.boxes);
     }
@@ -138,12 +143,11 @@ private:
         if (problem.any()) kind.failing = input.n;
     }
 
-    /// Runs the builder on the result again: a race fails now and then only, and then the first failure
-    /// is the one to report.
+    /// Runs the builder on the result again, and reports it if it fails. A race fails now and then only:
+    /// the first failure stays then.
     void keep_smallest(const std::vector<ref::Aabb>& boxes)
     {
         SmallestFailure& smallest = *report_.smallest;
-        static_cast<Failure&>(smallest) = {boxes, report_.first->problem};
         Problem last;
         constexpr std::size_t runs = 5;
         for (std::size_t i = 0; i < runs && !stop(); ++i) {
@@ -155,10 +159,7 @@ private:
             if (problem.any()) last = problem;
             if (problem.name == "timeout") break; // once is enough to wait for
         }
-        if (last.any())
-            smallest.problem = last;
-        else if (smallest.runs_again > 0)
-            smallest.boxes = report_.first->boxes;
+        if (last.any()) static_cast<Failure&>(smallest) = {boxes, last};
     }
 
     const Attempts& attempts_;

@@ -22,8 +22,9 @@ struct BuilderOptions {
     bool single_precision = true;               // all coordinates are floats
     std::vector<InputKind> kinds = {input_kinds.begin(), input_kinds.end()};
     TreeChecks checks;
-    std::function<bool()> stop; // asked between two runs
-    std::function<void(std::size_t done, std::size_t total)> progress;
+    std::function<bool()> stop;                                        // asked between two runs
+    std::function<void(std::size_t done, std::size_t total)> progress; // after each input
+    std::function<void(double seconds)> shrinking; // since shrinking began, of budget
 };
 
 /// An input that fails.

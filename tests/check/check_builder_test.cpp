@@ -128,6 +128,19 @@ TEST(CheckBuilder, EndsWithItsBudgetAndWhenItIsStopped)
     const BuilderReport stopped = check::check_builder(builder, options);
     EXPECT_TRUE(stopped.stopped);
     EXPECT_FALSE(stopped.passes());
+    EXPECT_FALSE(stopped.smallest);
+
+    // A failure before that is kept as it is.
+    bool failed = false;
+    options.stop = [&] { return failed; };
+    const BuilderReport kept = check::check_builder(
+        [&](std::span<const ref::Aabb> boxes) {
+            failed = boxes.size() == 7;
+            if (failed) throw std::logic_error("not 7");
+            return build(Defect::none, boxes);
+        },
+        options);
+    EXPECT_TRUE(kept.stopped);
 }
 
 TEST(Inputs, AreLegalAndFloatsAsPromised)

@@ -117,6 +117,20 @@ TEST(CheckTree, NamesThePropertyAndTheFirstCounterExample)
     }
 }
 
+TEST(CheckTree, NamesAPrimitiveThatIsInNoLeaf)
+{
+    const std::vector<ref::Aabb> boxes(2, {ref::Vec3(0), ref::Vec3(1)});
+    NeutralTree tree;
+    tree.nodes = {-1, -1, 0, 1};
+    tree.boxes = {boxes[0]};
+    tree.primitives = {0, 1};
+    const TreeReport report = check_tree(tree, boxes);
+    ASSERT_FALSE(report.passes());
+    EXPECT_EQ(report.first_failure()->name, "primitives");
+    EXPECT_EQ(report.first_failure()->example, "primitive 1 is in no leaf");
+    EXPECT_EQ(report.first_failure()->primitive, 1);
+}
+
 TEST(CheckTree, NamesACycle)
 {
     // Nodes 1 and 2 are each other's child; only node 0 and two leaves are reached.

@@ -163,6 +163,40 @@ TEST(CheckBuilderCommand, FindsAProgramThatRefusesEverything)
     EXPECT_EQ(Json::parse(outcome.out)["smallest"]["problem"]["name"], "rejected");
 }
 
+TEST(CheckBuilderCommand, GivesEveryRunAnEmptyFolder)
+{
+    // Builds a tree in its first run only.
+    const TemporaryFolder folder;
+    const std::string once = (folder / "once").string();
+    const std::string script = "test -e " + once + " && exit 0; touch " + once + "; exec " +
+                               WRONG_BUILDER + " none {primitives} {tree}";
+    const Outcome outcome = run({"check-builder", "--keep", (folder / "keep.npy").string(), "--only",
+                                 "grid", "--json", "--", "sh", "-c", script});
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    const Json json = Json::parse(outcome.out);
+    EXPECT_EQ(json["kinds"][0]["tried"], 2) << outcome.out;
+    EXPECT_EQ(json["kinds"][0]["problem"]["name"], "no-tree") << outcome.out;
+}
+
+TEST(CheckBuilderCommand, KeepsWhatFailedBeforeAnInterruption)
+{
+    const TemporaryFolder folder;
+    const std::string keep = (folder / "keep.npy").string();
+    const std::string crashed = (folder / "crashed").string();
+    const std::string started = (folder / "started").string();
+    // Crashes in its first run, and takes long in its second.
+    const std::string script = "test -e " + crashed + " && touch " + started + " && sleep 60; touch " +
+                               crashed + "; kill -SEGV $$";
+    cli_test::Process process({"check-builder", "--keep", keep, "--only", "grid", "--", "sh", "-c",
+                               script + " # {primitives} {tree}"});
+    ASSERT_TRUE(cli_test::eventually([&] { return std::filesystem::exists(started); }));
+    process.send(SIGINT);
+    const Outcome outcome = process.finish();
+    EXPECT_EQ(outcome.status, 130) << outcome.out << outcome.err;
+    EXPECT_TRUE(says(outcome.out, "interrupted")) << outcome.out;
+    EXPECT_FALSE(check::read_primitives(keep).boxes.empty());
+}
+
 TEST(CheckBuilderCommand, SaysInWordsWhatFailedAndHowToRepeatIt)
 {
     const TemporaryFolder folder;
