@@ -58,8 +58,8 @@ images::Image read_candidate(const fs::path& path, int width, int height)
     return picture;
 }
 
-PictureAttempt render_picture(const std::vector<std::string>& command, const PictureTask& task, double limit,
-                       const std::function<bool()>& stop)
+PictureAttempt render_picture(const std::vector<std::string>& command, const PictureTask& task,
+                              double limit, const std::function<bool()>& stop)
 {
     fs::remove(task.out);
     bool stopped = false;
