@@ -1,6 +1,7 @@
 #include "cli/compare_candidate.h"
 
 #include "cli/compare_scene.h"
+#include "cli/compare_transport.h"
 #include "cli/render_metadata.h"
 #include "golden/compare.h"
 #include "golden/diagnosis.h"
@@ -121,6 +122,7 @@ JudgedCandidate judge_batches(const golden::Golden& golden, const std::string& f
 JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<std::string>& files,
                                images::ExrPicture first, const CompareCommand& options)
 {
+    const std::vector<golden::MakeFaults> more = faults_of_scene(golden, 0.0, options);
     std::vector<images::Image> pictures = {first.mean};
     std::map<std::string, std::string> seeds; // and the file that has it
     images::Metadata metadata = first.metadata;
@@ -143,7 +145,7 @@ JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<s
         return golden::compare_pictures(golden, of);
     };
     golden::Comparison comparison = compared(pictures);
-    comparison.diagnosis = golden::diagnose(golden, comparison, pictures, 0.0, compared);
+    comparison.diagnosis = golden::diagnose(golden, comparison, pictures, 0.0, compared, more);
     images::Film film(golden.mean.width, golden.mean.height);
     for (const images::Image& picture : pictures) film.add_batch(picture);
     return {std::move(comparison), film.mean(), std::move(first.metadata), std::move(first.layers)};
@@ -158,13 +160,15 @@ JudgedCandidate judge_picture(const golden::Golden& golden, const std::string& f
         throw std::invalid_argument(file + ": layer " + options.layer +
                                     " is one batch: give its samples by -s");
     const double samples = samples_of(file, picture.metadata, options);
+    const std::vector<golden::MakeFaults> more = faults_of_scene(golden, samples, options);
     golden::Comparison comparison;
     const auto compared = [&](const std::vector<images::Image>& of) {
         return golden::compare_picture(golden, of.front(), samples);
     };
     try {
         comparison = compared({picture.mean});
-        comparison.diagnosis = golden::diagnose(golden, comparison, {picture.mean}, samples, compared);
+        comparison.diagnosis =
+            golden::diagnose(golden, comparison, {picture.mean}, samples, compared, more);
     } catch (const std::invalid_argument& error) {
         throw images::ImageError(file, error.what());
     }
@@ -186,6 +190,8 @@ JudgedCandidate judge(const golden::Golden& golden, const std::vector<std::strin
         throw std::invalid_argument("--layer " + options.layer + " is for pictures, .exr");
     if (options.samples && files.size() > 1)
         throw std::invalid_argument("--samples is for a single picture or a scene");
+    if (scene && !options.scene.empty())
+        throw std::invalid_argument("--scene " + options.scene + " is for pictures, not for a scene");
     if (scene) return judge_scene(golden, files.front(), options);
 
     images::ExrPicture first = read_picture(files.front(), options);

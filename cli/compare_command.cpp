@@ -119,10 +119,15 @@ ExitStatus compare_command(const CompareCommand& options)
                                 judged.metadata,
                                 judged.strategies};
     if (!options.report.empty()) golden::write_report(options.report, report);
-    if (options.json)
+    if (options.json) {
         std::cout << golden::report_json(report) << std::endl;
-    else
+    } else {
         print_screen(judged.comparison);
+        if (judged.comparison.verdict == golden::Verdict::fail && judged.comparison.diagnosis.empty() &&
+            options.scene.empty() && judged.comparison.method != golden::Method::ranks)
+            std::puts(
+                "\n--scene FILE, the golden's scene, looks for mistakes of light transport as well");
+    }
     return status_of(judged.comparison.verdict);
 }
 

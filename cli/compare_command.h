@@ -17,6 +17,7 @@ struct CompareCommand {
     std::vector<std::string> pictures; // candidates, then the golden
     std::optional<double> samples;     // per pixel, of a single picture or of a scene's first stage
     std::string layer;                 // of .exr files; empty: their R, G and B
+    std::string scene;                 // the golden's, to find mistakes of light transport
     std::string integrator;            // of a scene; empty: the golden's
     std::string device = "ref";        // that renders a scene
     std::optional<std::uint64_t> seed; // of a scene; none: another one every time

@@ -2,8 +2,8 @@
 
 #include "cli/bvh_command.h"
 #include "cli/check_builder_command.h"
-#include "cli/check_tree_command.h"
 #include "cli/check_renderer_command.h"
+#include "cli/check_tree_command.h"
 #include "cli/command.h"
 #include "cli/compare_command.h"
 #include "cli/counts.h"

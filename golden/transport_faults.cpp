@@ -66,7 +66,8 @@ Image halved(const Image& fine, int dx, int dy)
         for (int x = 0; x < result.width; ++x) {
             const int column = 2 * x + dx;
             const int row = 2 * y + dy;
-            const bool inside = column >= 0 && row >= 0 && column + 1 < fine.width && row + 1 < fine.height;
+            const bool inside =
+                column >= 0 && row >= 0 && column + 1 < fine.width && row + 1 < fine.height;
             result.at(x, y) = inside ? 0.25 * (fine.at(column, row) + fine.at(column + 1, row) +
                                                fine.at(column, row + 1) + fine.at(column + 1, row + 1))
                                      : Rgb(std::numeric_limits<double>::quiet_NaN());
@@ -83,9 +84,8 @@ std::string edges(int number)
 
 Fault rendered_fault(std::string is, Image wrong, Image right)
 {
-    return {std::move(is),
-            [wrong = std::move(wrong), right = std::move(right)](const Image& picture,
-                                                                 const Image& golden) {
+    return {std::move(is), [wrong = std::move(wrong), right = std::move(right)](const Image& picture,
+                                                                                const Image& golden) {
                 if (wrong.pixels.size() != picture.pixels.size() || wrong == right)
                     return std::optional<Image>();
                 Image result = picture;
@@ -97,6 +97,21 @@ Fault rendered_fault(std::string is, Image wrong, Image right)
                         result.pixels[i] += right.pixels[i] - from;
                 }
                 return spread_negative(result) ? std::optional(std::move(result)) : std::nullopt;
+            }};
+}
+
+Fault ratio_fault(std::string is, Image wrong)
+{
+    return {std::move(is), [wrong = std::move(wrong)](const Image& picture, const Image& golden) {
+                if (wrong.pixels.size() != picture.pixels.size()) return std::optional<Image>();
+                Image result = golden;
+                for (std::size_t i = 0; i < result.pixels.size(); ++i)
+                    for (int c = 0; c < 3; ++c) {
+                        const double from = wrong.pixels[i][c];
+                        if (from > 0.0) result.pixels[i][c] *= picture.pixels[i][c] / from;
+                        if (from == 0.0) result.pixels[i][c] += picture.pixels[i][c];
+                    }
+                return std::optional(std::move(result));
             }};
 }
 
@@ -128,9 +143,10 @@ std::vector<Fault> transport_faults(const LightByEdges& light, int longest)
         has_twice("one in which direct light counts twice (paths of 2 edges)", 2, 2);
     }
     if (longest >= 3)
-        has_twice("one in which all light counts twice but for emitters that are seen directly, as if hits "
-                  "of emitters and next events were added without weights",
-                  2, longest);
+        has_twice(
+            "one in which all light counts twice but for emitters that are seen directly, as if hits "
+            "of emitters and next events were added without weights",
+            2, longest);
     const std::string limit = ", where the golden's have up to " + edges(longest);
     if (longest >= 4) lacks("one of paths of up to " + edges(longest - 1) + limit, longest, longest);
     faults.push_back(rendered_fault("one of paths of up to " + edges(longest + 1) + limit,
@@ -142,15 +158,17 @@ std::vector<Fault> half_pixel_faults(const Image& fine)
 {
     const Image right = halved(fine, 0, 0);
     std::vector<Fault> faults;
+    std::vector<Fault> ratios;
     for (const auto& [dx, across] : {std::pair(0, ""), {1, "to the right"}, {-1, "to the left"}})
         for (const auto& [dy, along] : {std::pair(0, ""), {1, "downwards"}, {-1, "upwards"}}) {
             if (dx == 0 && dy == 0) continue;
             const std::string both = dx != 0 && dy != 0 ? " and " : "";
-            // What moves to the right is taken from the left.
-            faults.push_back(rendered_fault(std::string("shifted by half a pixel ") + across + both +
-                                                along,
-                                            halved(fine, -dx, -dy), right));
+            const std::string is = std::string("shifted by half a pixel ") + across + both + along;
+            const Image wrong = halved(fine, -dx, -dy); // what moves to the right is taken from the left
+            faults.push_back(rendered_fault(is, wrong, right));
+            ratios.push_back(ratio_fault(is, wrong));
         }
+    faults.insert(faults.end(), ratios.begin(), ratios.end());
     return faults;
 }
 

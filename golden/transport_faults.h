@@ -1,7 +1,7 @@
 #pragma once
 
-// What is usually wrong with the light transport of a renderer, and how to undo it with further renders of
-// the golden's scene.
+// What is usually wrong with the light transport of a renderer, and how to undo it with further renders
+// of the golden's scene.
 
 #include "golden/faults.h"
 #include "images/image.h"
@@ -17,6 +17,12 @@ namespace golden {
 /// 2^n x 2^n pixels whose mean is not, since no picture has negative light.
 Fault rendered_fault(std::string is, images::Image wrong, images::Image right);
 
+/// The same for a picture of `wrong` with fine detail in other places: each pixel is the golden's, times
+/// the ratio of the picture and `wrong`, or plus the picture where `wrong` is black. Where the golden is
+/// black the result is black, which the sum above is not by noise; but it is brighter by the square of
+/// the relative noise of `wrong`.
+Fault ratio_fault(std::string is, images::Image wrong);
+
 /// The light of a scene by the number of edges of its paths: [k - 1] is that of k edges.
 using LightByEdges = std::vector<images::Image>;
 
@@ -27,7 +33,8 @@ using LightByEdges = std::vector<images::Image>;
 std::vector<Fault> transport_faults(const LightByEdges& light, int longest);
 
 /// The picture was taken half a pixel aside, in one or both directions: samples are at the corners of
-/// pixels, for example. `fine`: the golden's scene with twice the pixels in both directions.
+/// pixels, for example. `fine`: the golden's scene with twice the pixels in both directions. First with
+/// rendered_fault, then with ratio_fault.
 std::vector<Fault> half_pixel_faults(const images::Image& fine);
 
 } // namespace golden

@@ -23,9 +23,10 @@ bool is_certain(const golden::Golden& golden, const golden::Comparison& comparis
         return true; // no test of means
     const golden::Multiplicity multiplicity(golden.functionals, golden::Method::welch);
     const golden::MeanEstimate nothing{0.0, 0.0, std::numeric_limits<double>::infinity()};
+    const auto fewer = static_cast<double>(std::min(pictures, golden.reference.size()));
     const double level = golden::CompareOptions().certainty_level;
     return std::ranges::any_of(comparison.findings, [&](const golden::Finding& finding) {
-        const golden::MeanEstimate by_pictures{finding.test.z, 1.0, static_cast<double>(pictures) - 1.0};
+        const golden::MeanEstimate by_pictures{finding.test.z, 1.0, fewer - 1.0};
         const double p = golden::welch(by_pictures, nothing, 0.0).p;
         return finding.conclusive && golden::bonferroni(p, multiplicity.of(finding.region.kind)) < level;
     });

@@ -80,7 +80,7 @@ private:
     {
         const PictureTask task = task_of(scene, number);
         const double left = options_.budget - seconds();
-        Attempt attempt =
+        PictureAttempt attempt =
             render_picture(options_.command, task, std::min(options_.time_limit, left), options_.stop);
         if (attempt.picture) {
             if (folder_.is_kept())

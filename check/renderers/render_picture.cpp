@@ -58,8 +58,8 @@ images::Image read_candidate(const fs::path& path, int width, int height)
     return picture;
 }
 
-Attempt render_picture(const std::vector<std::string>& command, const PictureTask& task, double limit,
-                       const std::function<bool()>& stop)
+PictureAttempt render_picture(const std::vector<std::string>& command, const PictureTask& task,
+                              double limit, const std::function<bool()>& stop)
 {
     fs::remove(task.out);
     bool stopped = false;
@@ -67,7 +67,7 @@ Attempt render_picture(const std::vector<std::string>& command, const PictureTas
         stopped = stopped || stop();
         return stopped;
     });
-    Attempt attempt;
+    PictureAttempt attempt;
     attempt.seconds = end.seconds;
     attempt.last_lines = readable(end.last_lines);
     if (stopped && end.how == ChildEnd::How::timed_out) return attempt;

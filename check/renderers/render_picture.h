@@ -24,7 +24,7 @@ struct PictureTask {
 };
 
 /// What came of it.
-struct Attempt {
+struct PictureAttempt {
     std::optional<images::Image> picture; // of the right size, all values finite
     /// Without a picture: "killed by signal 11 (Segmentation fault)", "wrote no picture", ...; empty if
     /// it was stopped.
@@ -45,8 +45,8 @@ images::Image read_candidate(const std::filesystem::path& path, int width, int h
 /// its place before is removed first. If `stop` returns true, the renderer is killed, and there is
 /// neither picture nor failure. Throws std::runtime_error if the program cannot be started, and
 /// std::invalid_argument as words_for.
-Attempt render_picture(const std::vector<std::string>& command, const PictureTask& task, double limit,
-                       const std::function<bool()>& stop);
+PictureAttempt render_picture(const std::vector<std::string>& command, const PictureTask& task,
+                              double limit, const std::function<bool()>& stop);
 
 /// The words as one line that a shell reads as these words.
 std::string shell_line(const std::vector<std::string>& words);

@@ -151,6 +151,10 @@ std::string results_table(const RendererCheck& check)
         first = false;
     }
     for (const std::string& sentence : in_common(check)) text += "\n" + sentence + "\n";
+    std::size_t earlier = 0;
+    for (const SceneCheck& scene : check.scenes) earlier += scene.from_earlier_run();
+    if (earlier > 0) text += "\n" + std::to_string(earlier) + " pictures are of an earlier run.\n";
+    if (check.time_up) text += "\nThe time was spent before all scenes had a verdict: see --budget.\n";
     return text + "\n" + summary(check) + formatted(", after %.1f s\n", check.seconds);
 }
 

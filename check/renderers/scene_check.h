@@ -21,7 +21,7 @@ std::string describe(SceneVerdict verdict); // "PASS", "FAIL", "INCONCLUSIVE", "
 
 /// A picture that the renderer did not make.
 struct Missing {
-    std::string why; // as Attempt::failure
+    std::string why; // as PictureAttempt::failure
     std::string last_lines;
     std::string command; // that makes it again, for a shell
 };

@@ -71,7 +71,8 @@ fs::path find_suite(const std::string& named, const fs::path& program)
     if (is_suite(fs::current_path())) return fs::current_path();
     for (fs::path folder = program.parent_path(); folder.has_relative_path();
          folder = folder.parent_path())
-        if (is_suite(folder)) return folder;
+        for (const fs::path& suite : {folder, folder / "share" / "plumbline"}) // built, and installed
+            if (is_suite(suite)) return suite;
     throw std::invalid_argument(
         "neither this folder nor one above the program has scenes/ and golden/renders/: name one by "
         "--suite");

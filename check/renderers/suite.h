@@ -19,7 +19,8 @@ struct SuiteScene {
 };
 
 /// The folder that holds scenes/ and golden/renders/: `named` if it is not empty, else the current one,
-/// else the first above `program` (the file of this program). Throws std::invalid_argument if there is
+/// else the first above `program` (the file of this program), or share/plumbline of one above it, where
+/// both are installed. Throws std::invalid_argument if there is
 /// none.
 std::filesystem::path find_suite(const std::string& named, const std::filesystem::path& program);
 

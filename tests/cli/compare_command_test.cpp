@@ -279,6 +279,90 @@ TEST_F(CompareCommand, ALayerIsChosenByName)
     EXPECT_NE(batch.err.find("is one batch: give its samples by -s"), std::string::npos) << batch.err;
 }
 
+/// directional_over_plane with a mirror that stands on the plane: half of the light has paths of 3
+/// edges.
+std::string scene_with_mirror()
+{
+    std::string text = read_bytes(scene_file("directional_over_plane"));
+    const auto insert_before = [&](const char* mark, const std::string& what) {
+        text.insert(text.rfind(mark), what);
+    };
+    insert_before(
+        "</library_effects>",
+        R"(<effect id="mirror-effect"><profile_COMMON><technique sid="common"><lambert/></technique>
+                  </profile_COMMON><extra><technique profile="CMU462"><mirror><reflectance>0.9 0.9 0.9
+                  </reflectance></mirror></technique></extra></effect>)");
+    insert_before("</library_materials>",
+                  R"(<material id="mirror"><instance_effect url="#mirror-effect"/></material>)");
+    insert_before(
+        R"(<node id="ball-node">)",
+        R"(<node id="mirror-node"><matrix>0.16 0 0.6 0.3  0.12 0 -0.8 0.2  0 0.2 0 0  0 0 0 1</matrix>
+                  <instance_geometry url="#plane"><bind_material><technique_common>
+                  <instance_material symbol="ground" target="#mirror"/>
+                  </technique_common></bind_material></instance_geometry></node>)");
+    return text;
+}
+
+TEST_F(CompareCommand, RendersOfTheSceneFindMoreMistakes)
+{
+    const std::string scene = (folder / "mirror.dae").string();
+    const std::string other = (folder / "other.dae").string(); // the same angle along the other axis
+    const std::string wrong = (folder / "wrong.pfm").string();
+    std::string text = scene_with_mirror();
+    write_bytes(scene, text);
+    for (std::size_t place = text.find("yfov>"); place != std::string::npos; place = text.find("yfov>"))
+        text[place] = 'x';
+    write_bytes(other, text);
+    golden_file = (folder / "mirror.exr").string();
+    ASSERT_EQ(run({"golden", scene, "--folder", folder.path().string(), "--size", "18x12", "--batch",
+                   "8", "--pilot", "64", "-s", "2048", "--max-edges", "3", "-q"})
+                  .status,
+              0);
+    const auto render_wrong = [&](const std::string& file, const char* edges) {
+        const Outcome outcome =
+            run({"render", file, "-o", wrong, "--size", "18x12", "-s", "1024", "--batch", "8",
+                 "--integrator", "bdpt", "--max-edges", edges, "-q"});
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+    };
+    const auto expect = [&](const std::string& mistake) {
+        const Outcome outcome = compare({wrong}, {"-s", "1024", "--scene", scene});
+        EXPECT_EQ(outcome.status, 1) << outcome.err;
+        EXPECT_NE(outcome.out.find("Your picture is " + mistake), std::string::npos) << outcome.out;
+    };
+    render_wrong(scene, "2");
+    expect("one of direct light alone");
+    const Outcome hint = compare({wrong}, {"-s", "1024"});
+    EXPECT_NE(hint.out.find("--scene FILE"), std::string::npos) << hint.out;
+    const Outcome not_its_scene = compare({wrong}, {"-s", "1024", "--scene", other});
+    EXPECT_EQ(not_its_scene.status, 2);
+    EXPECT_EQ(not_its_scene.err,
+              "plumbline: --scene " + other + ": is not the scene of the golden (mirror)\n");
+
+    render_wrong(other, "3");
+    expect("one in which the vertical field of view was taken for the horizontal one");
+}
+
+TEST_F(CompareCommand, HalfAPixelIsFoundByARenderOfTheScene)
+{
+    // Pixels of half the size, taken together one to the left and above of where they should be.
+    const std::string wrong = (folder / "wrong.pfm").string();
+    render(wrong, {"--integrator", "bdpt", "--size", "32x32", "-s", "128"});
+    const images::Image fine = images::read_pfm(wrong);
+    images::Image shifted(16, 16);
+    for (int y = 0; y < shifted.height; ++y)
+        for (int x = 0; x < shifted.width; ++x)
+            for (int i = 0; i < 4; ++i)
+                shifted.at(x, y) +=
+                    0.25 * fine.at(std::max(0, 2 * x - 1 + i % 2), std::max(0, 2 * y - 1 + i / 2));
+    images::write_pfm(wrong, shifted);
+    const Outcome outcome =
+        compare({wrong}, {"-s", "512", "--scene", scene_file("directional_over_plane")});
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_NE(outcome.out.find("Your picture is shifted by half a pixel to the right and downwards"),
+              std::string::npos)
+        << outcome.out;
+}
+
 TEST_F(CompareCommand, PrintsOneJsonObject)
 {
     render(candidate, {"--integrator", "bdpt", "--keep-batches"});

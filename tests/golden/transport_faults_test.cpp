@@ -40,8 +40,8 @@ protected:
     static constexpr double samples = 4.0 * batches;
     static constexpr int longest = 4;
 
-    /// The share of paths of `edges` edges in the light of a pixel: a lamp that is seen in one corner, and
-    /// less direct light to the right and below.
+    /// The share of paths of `edges` edges in the light of a pixel: a lamp that is seen in one corner,
+    /// and less direct light to the right and below.
     static double share(int edges, int x, int y)
     {
         constexpr double edge = golden_test::size - 1;
@@ -50,7 +50,8 @@ protected:
         const double rest = lamp ? 0.1 : 1.0;
         const double direct = 0.4 + 0.4 * (edge - x) / edge;
         const double third = (1.0 - direct) * (0.4 + 0.3 * y / edge);
-        const std::array<double, 4> shares = {direct, third, 1.0 - direct - third, 0.03 + 0.05 * x / edge};
+        const std::array<double, 4> shares = {direct, third, 1.0 - direct - third,
+                                              0.03 + 0.05 * x / edge};
         return rest * shares.at(static_cast<std::size_t>(edges - 2));
     }
     /// `image` with each pixel times `factor` of its place.
@@ -105,7 +106,6 @@ TEST_F(TransportFaults, ADiagnosisNamesThem)
     EXPECT_EQ(diagnosis(weighted({0, 1, 1, 1, 0})),
               "Your picture is without the light of emitters that are seen directly (paths of 1 edge): "
               "with this undone, it PASSes.");
-    EXPECT_EQ(diagnosis(weighted({1, 1, 0.5, 1, 0})), "");
 }
 
 TEST_F(TransportFaults, LightThatIsMissingOrTwiceIsNamed)
@@ -118,16 +118,20 @@ TEST_F(TransportFaults, LightThatIsMissingOrTwiceIsNamed)
     expect({1, 1, 0, 0, 0}, "one of direct light alone");
     expect({1, 0, 1, 1, 0}, "without direct light");
     expect({1, 2, 1, 1, 0}, "one in which direct light counts twice");
-    expect({1, 2, 2, 2, 0}, "one in which all light counts twice but for emitters that are seen directly");
+    expect({1, 2, 2, 2, 0},
+           "one in which all light counts twice but for emitters that are seen directly");
     expect({1, 1, 1, 0, 0}, "one of paths of up to 3 edges, where the golden's have up to 4");
     expect({1, 1, 1, 1, 1}, "one of paths of up to 5 edges, where the golden's have up to 4");
 }
 
 TEST_F(TransportFaults, WrongPicturesOfAnotherKindGetNone)
 {
-    for (const std::array<double, 5>& weights :
-         {std::array<double, 5>{1, 1, 0.5, 1, 0}, {1, 0.5, 1, 1, 0}, {1, 1, 0, 1, 0}, {0.5, 1, 1, 1, 0},
-          {1, 1, 1, 1, 3}, {0, 0, 1, 1, 0}}) {
+    for (const std::array<double, 5>& weights : {std::array<double, 5>{1, 1, 0.5, 1, 0},
+                                                 {1, 0.5, 1, 1, 0},
+                                                 {1, 1, 0, 1, 0},
+                                                 {0.5, 1, 1, 1, 0},
+                                                 {1, 1, 1, 1, 3},
+                                                 {0, 0, 1, 1, 0}}) {
         EXPECT_NE(judged({weighted(weights)}).verdict, golden::Verdict::pass);
         EXPECT_EQ(name_of(weights), "");
     }
@@ -142,8 +146,9 @@ TEST(TransportFaultsOfALength, LightThatIsBlackMakesNoMistake)
     std::vector<std::string> names;
     for (const golden::Fault& fault : faults)
         if (fault.undo(grey, grey)) names.push_back(fault.is);
-    EXPECT_EQ(names, (std::vector<std::string>{"without direct light (paths of 2 edges)",
-                                               "one in which direct light counts twice (paths of 2 edges)"}));
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"without direct light (paths of 2 edges)",
+                                        "one in which direct light counts twice (paths of 2 edges)"}));
     EXPECT_THROW(golden::transport_faults({black, grey}, 2), std::invalid_argument);
 }
 
@@ -167,6 +172,20 @@ TEST(RenderedFault, AddsTheDifferenceAndSpreadsNegativeLight)
     EXPECT_FALSE(golden::rendered_fault("x", wrong, right).undo(picture, golden)); // less than no light
 }
 
+TEST(RatioFault, ScalesTheGoldenByTheRatioOfThePictures)
+{
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    Image picture(4, 1);
+    Image wrong(4, 1);
+    Image golden(4, 1);
+    picture.pixels = {Rgb(3.0), Rgb(2.0), Rgb(3.0), Rgb(4.0)};
+    wrong.pixels = {Rgb(2.0), Rgb(1.0), Rgb(0.0), Rgb(unknown)};
+    golden.pixels = {Rgb(8.0), Rgb(0.0), Rgb(0.5), Rgb(7.0)};
+    const auto undone = golden::ratio_fault("x", wrong).undo(picture, golden);
+    ASSERT_TRUE(undone);
+    EXPECT_EQ(undone->pixels, (std::vector<Rgb>{Rgb(12.0), Rgb(0.0), Rgb(3.5), Rgb(7.0)}));
+}
+
 /// A picture of a sharp edge, a bright disc and a gradient, of which pictures half a pixel aside exist.
 class HalfPixel : public ::testing::Test {
 protected:
@@ -176,7 +195,8 @@ protected:
     static double truth(double x, double y) // x and y in pixels
     {
         const double distance = std::hypot(x - 20.3, y - 9.7);
-        return 0.3 + 0.02 * x + 0.01 * y + (x + 0.4 * y > 17.0 ? 0.5 : 0.0) + (distance < 6.0 ? 2.0 : 0.0);
+        return 0.3 + 0.02 * x + 0.01 * y + (x + 0.4 * y > 17.0 ? 0.5 : 0.0) +
+               (distance < 6.0 ? 2.0 : 0.0);
     }
     /// The mean over squares of `width` pixels around the centres of pixels of `pitch`, `aside` by that.
     static Image picture_of(double aside_x, double aside_y, double width = 1.0, double pitch = 1.0)
@@ -187,10 +207,10 @@ protected:
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x)
                 for (int i = 0; i < steps * steps; ++i)
-                    image.at(x, y) +=
-                        Rgb(truth((x + 0.5) * pitch - aside_x + width * ((i % steps + 0.5) / steps - 0.5),
-                                  (y + 0.5) * pitch - aside_y + width * ((i / steps + 0.5) / steps - 0.5)) /
-                            (steps * steps));
+                    image.at(x, y) += Rgb(
+                        truth((x + 0.5) * pitch - aside_x + width * ((i % steps + 0.5) / steps - 0.5),
+                              (y + 0.5) * pitch - aside_y + width * ((i / steps + 0.5) / steps - 0.5)) /
+                        (steps * steps));
         return image;
     }
     /// `image` with the noise of `samples` per pixel, of relative standard deviation 0.3 for one.

@@ -214,6 +214,7 @@ TEST_F(CheckRenderer, EndsWithItsBudgetOrWhenStopped)
     EXPECT_EQ(spent.scenes[0].verdict(),
               SceneVerdict::inconclusive); // the time was ours, not the renderer's
     EXPECT_LT(spent.seconds, 15.0);
+    EXPECT_NE(results_table(spent).find("\nThe time was spent before"), std::string::npos);
 
     options.budget = 60.0;
     int asked = 0;
