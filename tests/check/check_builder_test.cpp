@@ -122,8 +122,8 @@ TEST(CheckBuilder, StopsShrinkingAtOnceWhenItsBudgetIsSpent)
     options.cases = 0;
     options.budget = 1e-6;
     const std::vector<ref::Aabb> boxes = check::input_boxes(check::InputKind::coincident, 65537, 1);
-    const check::Attempts attempts = [](std::span<const ref::Aabb>, double) {
-        return check::Attempt{check::Attempt::End::crashed, {}, "a crash"};
+    const check::BuildAttempts attempts = [](std::span<const ref::Aabb>, double) {
+        return check::BuildAttempt{check::BuildAttempt::End::crashed, {}, "a crash"};
     };
     const BuilderReport report = check::check_on_input(attempts, boxes, options);
     ASSERT_TRUE(report.smallest);
