@@ -1,5 +1,6 @@
 #include "check/npy.h"
 
+#include "check/npy_format.h"
 #include "images/atomic_file.h"
 #include "images/image_error.h"
 
@@ -10,7 +11,6 @@
 #include <cstring>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <string_view>
 #include <type_traits>
 
@@ -19,9 +19,6 @@ namespace check {
 namespace {
 
 using images::ImageError;
-
-constexpr std::string_view magic = "\x93NUMPY";
-constexpr std::size_t written_header = 128; // a multiple of 64, as the format asks for
 
 /// The value of `key` in the header, a literal of a Python dictionary: the text up to the next comma or
 /// brace outside parentheses. Empty if there is none.
@@ -60,18 +57,6 @@ std::optional<std::vector<std::size_t>> parsed_shape(std::string_view text)
         at = next;
     }
     return shape;
-}
-
-/// The product of the extents; none if it exceeds 2^48.
-std::optional<std::size_t> element_count(std::span<const std::size_t> shape)
-{
-    std::size_t count = 1;
-    for (const std::size_t extent : shape) {
-        if (extent == 0) return 0;
-        if (extent > (std::size_t{1} << 48) / count) return {};
-        count *= extent;
-    }
-    return count;
 }
 
 template <typename Number>
@@ -145,7 +130,7 @@ std::array<std::size_t, 2> header_of(const std::string& bytes, const std::filesy
     const auto byte = [&](std::size_t i) {
         return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i]));
     };
-    if (bytes.size() < 12 || !bytes.starts_with(magic))
+    if (bytes.size() < 12 || !bytes.starts_with(npy_format::magic))
         throw ImageError(path, "is not a .npy file of NumPy");
     const bool long_header = bytes[6] != 1;
     const std::size_t begin = long_header ? 12 : 10;
@@ -157,42 +142,7 @@ std::array<std::size_t, 2> header_of(const std::string& bytes, const std::filesy
     return {begin, length};
 }
 
-std::string with_header(const char* letters, std::span<const std::size_t> shape)
-{
-    std::string header = std::string("{'descr': '<") + letters +
-                         "', 'fortran_order': False, 'shape': " + shape_text(shape) + ", }";
-    constexpr std::size_t prefix = magic.size() + 4;
-    if (prefix + header.size() + 1 > written_header) throw std::invalid_argument("too many axes");
-    header.resize(written_header - prefix - 1, ' ');
-    header += '\n';
-    const auto low = static_cast<char>(header.size() & 0xff);
-    const auto high = static_cast<char>(header.size() >> 8);
-    return std::string(magic) + '\x01' + '\x00' + low + high + header;
-}
-
-template <typename Stored, typename Number>
-void append_bytes(std::string& bytes, std::span<const Number> values)
-{
-    static_assert(std::endian::native == std::endian::little);
-    const std::size_t begin = bytes.size();
-    bytes.resize(begin + values.size() * sizeof(Stored));
-    char* at = bytes.data() + begin;
-    for (const Number value : values) {
-        const auto stored = static_cast<Stored>(value);
-        std::memcpy(at, &stored, sizeof(Stored));
-        at += sizeof(Stored);
-    }
-}
-
 } // namespace
-
-std::string shape_text(std::span<const std::size_t> shape)
-{
-    std::string text = "(";
-    for (std::size_t axis = 0; axis < shape.size(); ++axis)
-        text += (axis > 0 ? ", " : "") + std::to_string(shape[axis]);
-    return text + (shape.size() == 1 ? ",)" : ")");
-}
 
 NpyArray read_npy(const std::filesystem::path& path)
 {
@@ -212,7 +162,7 @@ NpyArray read_npy(const std::filesystem::path& path)
         throw ImageError(path, "holds elements of type " + std::string(type) +
                                    ": there must be integers, float32 or float64");
 
-    const std::optional<std::size_t> count = element_count(*shape);
+    const std::optional<std::size_t> count = npy_format::element_count(*shape);
     const std::string_view data = std::string_view(bytes).substr(begin + length);
     if (!count || data.size() != *count * known->bytes)
         throw ImageError(path, "holds " + std::to_string(data.size()) +
@@ -226,27 +176,6 @@ NpyArray read_npy(const std::filesystem::path& path)
         array.integers = in_c_order(array.integers, array.shape);
     }
     return array;
-}
-
-std::string npy_bytes(std::span<const std::size_t> shape, std::span<const double> reals,
-                      bool single_precision)
-{
-    if (element_count(shape) != reals.size()) throw std::invalid_argument("shape and numbers disagree");
-    std::string bytes = with_header(single_precision ? "f4" : "f8", shape);
-    if (single_precision)
-        append_bytes<float>(bytes, reals);
-    else
-        append_bytes<double>(bytes, reals);
-    return bytes;
-}
-
-std::string npy_bytes(std::span<const std::size_t> shape, std::span<const std::int64_t> integers)
-{
-    if (element_count(shape) != integers.size())
-        throw std::invalid_argument("shape and numbers disagree");
-    std::string bytes = with_header("i4", shape);
-    append_bytes<std::int32_t>(bytes, integers);
-    return bytes;
 }
 
 } // namespace check

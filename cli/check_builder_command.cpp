@@ -66,7 +66,7 @@ check::BuilderReport tried(const CheckBuilderCommand& options, check::BuilderOpt
         input = check::read_primitives(options.input);
         format = input.format;
     }
-    const check::Attempts attempts =
+    const check::BuildAttempts attempts =
         check::command_builder(options.command, format, folder.path(), interrupt_requested);
     std::optional<Progress> progress;
     std::optional<Progress> shrinking;

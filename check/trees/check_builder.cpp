@@ -60,7 +60,8 @@ std::vector<Planned> plan(const BuilderOptions& options)
 /// One check of a builder: the clock, the limits, and the report so far.
 class Run {
 public:
-    Run(const Attempts& attempts, const BuilderOptions& options) : attempts_(attempts), options_(options)
+    Run(const BuildAttempts& attempts, const BuilderOptions& options)
+        : attempts_(attempts), options_(options)
     {}
 
     void try_all(const std::vector<Planned>& inputs)
@@ -84,7 +85,7 @@ public:
     /// Whether the builder fails on these boxes; the first failure is kept.
     Problem try_boxes(const std::vector<ref::Aabb>& boxes)
     {
-        const Attempt attempt = attempts_(boxes, options_.timeout);
+        const BuildAttempt attempt = attempts_(boxes, options_.timeout);
         if (stop()) return {}; // the run may have been cut short
         const Problem problem = problem_of(attempt, boxes, options_.checks);
         if (!problem.any())
@@ -112,7 +113,7 @@ public:
             return stop() || seconds > options_.budget;
         };
         const auto fails = [&](const std::vector<ref::Aabb>& boxes) {
-            const Attempt attempt = attempts_(boxes, limit);
+            const BuildAttempt attempt = attempts_(boxes, limit);
             return !stop() && problem_of(attempt, boxes, options_.checks).any();
         };
         const ShrunkBoxes shrunk = shrink_boxes(report_.first->boxes, fails, give_up);
@@ -162,7 +163,7 @@ private:
         if (last.any()) static_cast<Failure&>(smallest) = {boxes, last};
     }
 
-    const Attempts& attempts_;
+    const BuildAttempts& attempts_;
     const BuilderOptions& options_;
     BuilderReport report_;
 };
@@ -176,7 +177,7 @@ std::string seconds_text(double seconds)
 
 } // namespace
 
-BuilderReport check_attempts(const Attempts& attempts, const BuilderOptions& options)
+BuilderReport check_attempts(const BuildAttempts& attempts, const BuilderOptions& options)
 {
     Run run(attempts, options);
     run.try_all(plan(options));
@@ -184,7 +185,7 @@ BuilderReport check_attempts(const Attempts& attempts, const BuilderOptions& opt
     return run.take();
 }
 
-BuilderReport check_on_input(const Attempts& attempts, const std::vector<ref::Aabb>& boxes,
+BuilderReport check_on_input(const BuildAttempts& attempts, const std::vector<ref::Aabb>& boxes,
                              const BuilderOptions& options)
 {
     Run run(attempts, options);
@@ -197,18 +198,18 @@ BuilderReport check_on_input(const Attempts& attempts, const std::vector<ref::Aa
 
 BuilderReport check_builder(const BuilderFunction& build, const BuilderOptions& options)
 {
-    const Attempts attempts = [&](std::span<const ref::Aabb> boxes, double limit_seconds) {
+    const BuildAttempts attempts = [&](std::span<const ref::Aabb> boxes, double limit_seconds) {
         const double begin = seconds_now();
-        Attempt attempt{Attempt::End::built};
+        BuildAttempt attempt{BuildAttempt::End::built};
         try {
             attempt.tree = build(boxes);
         } catch (const std::exception& error) {
-            attempt.end = Attempt::End::rejected;
+            attempt.end = BuildAttempt::End::rejected;
             attempt.text = error.what();
         }
         attempt.seconds = seconds_now() - begin;
         if (attempt.seconds > limit_seconds) {
-            attempt.end = Attempt::End::timed_out;
+            attempt.end = BuildAttempt::End::timed_out;
             attempt.text = "it took " + seconds_text(attempt.seconds);
         }
         return attempt;

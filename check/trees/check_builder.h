@@ -2,7 +2,7 @@
 
 // Runs a builder over inputs that builders are known to fail on, and shrinks the first failure.
 
-#include "check/trees/attempt.h"
+#include "check/trees/build_attempt.h"
 #include "check/trees/inputs.h"
 
 #include <cstddef>
@@ -62,10 +62,10 @@ struct BuilderReport {
 
 /// Tries all kinds of inputs, small ones first, then random ones. An exception of `attempts` itself ends
 /// the check.
-BuilderReport check_attempts(const Attempts& attempts, const BuilderOptions& options);
+BuilderReport check_attempts(const BuildAttempts& attempts, const BuilderOptions& options);
 
 /// The same on one given input.
-BuilderReport check_on_input(const Attempts& attempts, const std::vector<ref::Aabb>& boxes,
+BuilderReport check_on_input(const BuildAttempts& attempts, const std::vector<ref::Aabb>& boxes,
                              const BuilderOptions& options);
 
 /// A builder in C++. It rejects its input by an exception of type std::exception.

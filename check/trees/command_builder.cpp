@@ -36,23 +36,23 @@ std::string last_line(const std::string& output)
     return ": " + output.substr(from, end + 1 - from);
 }
 
-void read_result(Attempt& attempt, const std::filesystem::path& tree)
+void read_result(BuildAttempt& attempt, const std::filesystem::path& tree)
 {
     std::filesystem::path file = tree;
     file += ".json";
     try {
         attempt.tree = read_tree(std::filesystem::exists(file) ? file : tree);
-        attempt.end = Attempt::End::built;
+        attempt.end = BuildAttempt::End::built;
     } catch (const images::ImageError& error) {
-        attempt.end = Attempt::End::no_tree;
+        attempt.end = BuildAttempt::End::no_tree;
         attempt.text = without_folder(error.what(), tree.string(), "{tree}");
     }
 }
 
 } // namespace
 
-Attempts command_builder(std::vector<std::string> command, PrimitiveFormat format,
-                         std::filesystem::path folder, std::function<bool()> stop)
+BuildAttempts command_builder(std::vector<std::string> command, PrimitiveFormat format,
+                              std::filesystem::path folder, std::function<bool()> stop)
 {
     const std::filesystem::path primitives = folder / "primitives.npy";
     const std::filesystem::path tree = folder / "tree";
@@ -72,19 +72,19 @@ Attempts command_builder(std::vector<std::string> command, PrimitiveFormat forma
         std::filesystem::create_directory(tree);
         write_quickly(primitives, primitives_bytes(boxes, format));
         const ChildEnd end = run_child(words, limit_seconds, stop);
-        Attempt attempt{Attempt::End::built};
+        BuildAttempt attempt{BuildAttempt::End::built};
         attempt.seconds = end.seconds;
         attempt.text = describe(end) + last_line(end.last_lines);
         switch (end.how) {
         case ChildEnd::How::signalled:
-            attempt.end = Attempt::End::crashed;
+            attempt.end = BuildAttempt::End::crashed;
             break;
         case ChildEnd::How::timed_out:
-            attempt.end = Attempt::End::timed_out;
+            attempt.end = BuildAttempt::End::timed_out;
             break;
         case ChildEnd::How::exited:
             if (end.code != 0)
-                attempt.end = Attempt::End::rejected;
+                attempt.end = BuildAttempt::End::rejected;
             else
                 read_result(attempt, tree);
             break;

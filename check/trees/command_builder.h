@@ -1,6 +1,6 @@
 #pragma once
 
-#include "check/trees/attempt.h"
+#include "check/trees/build_attempt.h"
 #include "check/trees/tree_files.h"
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace check {
 ///
 /// Throws std::invalid_argument if the command lacks a placeholder or has an unknown one;
 /// the attempts throw std::runtime_error if it cannot be started or the files cannot be written.
-Attempts command_builder(std::vector<std::string> command, PrimitiveFormat format,
-                         std::filesystem::path folder, std::function<bool()> stop = {});
+BuildAttempts command_builder(std::vector<std::string> command, PrimitiveFormat format,
+                              std::filesystem::path folder, std::function<bool()> stop = {});
 
 } // namespace check

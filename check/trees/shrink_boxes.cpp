@@ -151,13 +151,19 @@ ShrunkBoxes shrink_boxes(std::vector<ref::Aabb> boxes,
         return rc::seq::concat(rc::makeSeq<WithoutParts>(larger),
                                rc::seq::fromContainer(with_simpler_boxes(larger)));
     });
-    std::size_t tries = 0;
-    const auto found = rc::shrinkable::findLocalMin(shrinkable, [&](const Boxes& smaller) {
-        if (give_up()) return false;
-        ++tries;
-        return fails(smaller);
-    });
-    return {found.first, tries};
+    ShrunkBoxes result{shrinkable.value()};
+    struct GaveUp {};
+    try {
+        rc::shrinkable::findLocalMin(shrinkable, [&](const Boxes& smaller) {
+            if (give_up()) throw GaveUp{}; // to go on without a try would still make every smaller set
+            ++result.tries;
+            const bool fails_still = fails(smaller);
+            if (fails_still) result.boxes = smaller;
+            return fails_still;
+        });
+    } catch (const GaveUp&) { // the smallest so far
+    }
+    return result;
 }
 
 } // namespace check

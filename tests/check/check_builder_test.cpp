@@ -101,16 +101,34 @@ TEST(CheckBuilder, SimplifiesTheCoordinatesOfAFailure)
 
 TEST(CheckBuilder, KeepsTheFirstInputOfAFailureThatDoesNotComeAgain)
 {
-    int runs = 0;
+    int failures = 0; // the second one is on a simpler input
     const auto builder = [&](std::span<const ref::Aabb> boxes) {
-        if (boxes.size() == 9 && runs++ == 0) throw std::logic_error("a race");
+        if (boxes.size() == 9 && ++failures <= 2) throw std::logic_error("a race");
         return build(Defect::none, boxes);
     };
     const BuilderReport report = check::check_builder(builder, quick());
     ASSERT_TRUE(report.smallest);
-    EXPECT_EQ(report.smallest->boxes.size(), 9U);
+    EXPECT_EQ(report.smallest->boxes, report.first->boxes);
+    EXPECT_EQ(report.smallest->problem.name, "rejected");
     EXPECT_EQ(report.smallest->failed_again, 0U);
     EXPECT_NE(describe(report).find("in 0 of 5 further runs"), std::string::npos) << describe(report);
+}
+
+TEST(CheckBuilder, StopsShrinkingAtOnceWhenItsBudgetIsSpent)
+{
+    // 2^17 smaller inputs would be made if shrinking went on without trying them.
+    BuilderOptions options;
+    options.kinds = {check::InputKind::coincident};
+    options.cases = 0;
+    options.budget = 1e-6;
+    const std::vector<ref::Aabb> boxes = check::input_boxes(check::InputKind::coincident, 65537, 1);
+    const check::BuildAttempts attempts = [](std::span<const ref::Aabb>, double) {
+        return check::BuildAttempt{check::BuildAttempt::End::crashed, {}, "a crash"};
+    };
+    const BuilderReport report = check::check_on_input(attempts, boxes, options);
+    ASSERT_TRUE(report.smallest);
+    EXPECT_EQ(report.smallest->tries, 0U);
+    EXPECT_EQ(report.smallest->boxes, boxes);
 }
 
 TEST(CheckBuilder, EndsWithItsBudgetAndWhenItIsStopped)

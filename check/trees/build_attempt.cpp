@@ -1,4 +1,4 @@
-#include "check/trees/attempt.h"
+#include "check/trees/build_attempt.h"
 
 #include <stdexcept>
 
@@ -21,22 +21,23 @@ Expected expected_of(std::span<const ref::Aabb> boxes)
 
 } // namespace
 
-Problem problem_of(const Attempt& attempt, std::span<const ref::Aabb> boxes, const TreeChecks& checks)
+Problem problem_of(const BuildAttempt& attempt, std::span<const ref::Aabb> boxes,
+                   const TreeChecks& checks)
 {
     const Expected expected = expected_of(boxes);
     switch (attempt.end) {
-    case Attempt::End::crashed:
+    case BuildAttempt::End::crashed:
         return {"crash", attempt.text};
-    case Attempt::End::timed_out:
+    case BuildAttempt::End::timed_out:
         return {"timeout", attempt.text};
-    case Attempt::End::rejected:
+    case BuildAttempt::End::rejected:
         if (expected != Expected::tree) return {};
         return {"rejected", "legal primitives were rejected: " + attempt.text};
-    case Attempt::End::no_tree:
+    case BuildAttempt::End::no_tree:
         if (expected == Expected::rejection)
             return {"accepted-nan", "NaN was not rejected: " + attempt.text};
         return {"no-tree", attempt.text};
-    case Attempt::End::built: {
+    case BuildAttempt::End::built: {
         if (expected == Expected::rejection) return {"accepted-nan", "NaN was not rejected"};
         const TreeReport report = check_tree(attempt.tree, boxes, checks);
         const Property* failure = report.first_failure();

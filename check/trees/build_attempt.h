@@ -11,7 +11,7 @@
 namespace check {
 
 /// How a builder ended, whether it is a function or a program.
-struct Attempt {
+struct BuildAttempt {
     enum class End {
         built,     // it returned a tree, which need not be valid
         rejected,  // it refused the input: an exception, or an exit status other than 0
@@ -25,7 +25,8 @@ struct Attempt {
 };
 
 /// Runs a builder on these boxes, for at most so many seconds.
-using Attempts = std::function<Attempt(std::span<const ref::Aabb> boxes, double limit_seconds)>;
+using BuildAttempts =
+    std::function<BuildAttempt(std::span<const ref::Aabb> boxes, double limit_seconds)>;
 
 /// What is wrong with an attempt: a name ("crash", "timeout", "rejected", "accepted-nan", "no-tree", or
 /// that of a property), and a sentence. No name: nothing is wrong.
@@ -38,6 +39,7 @@ struct Problem {
 /// What is wrong with this attempt on these boxes. NaN, and boxes whose lower end is above the upper
 /// one, must be rejected; infinite coordinates and an empty set may be; everything else must give a
 /// valid tree.
-Problem problem_of(const Attempt& attempt, std::span<const ref::Aabb> boxes, const TreeChecks& checks);
+Problem problem_of(const BuildAttempt& attempt, std::span<const ref::Aabb> boxes,
+                   const TreeChecks& checks);
 
 } // namespace check
