@@ -134,7 +134,8 @@ std::vector<golden::MakeFaults> faults_of_scene(const golden::Golden& golden, do
                                     std::to_string(images::most_edges_of_strategies) + " edges");
     return {
         [renders] { return golden::transport_faults(renders->light(), renders->command().max_edges); },
-        [renders] { return half_pixel(*renders); }, [renders, &golden] { return field_of_view(*renders, golden.mean); }};
+        [renders] { return half_pixel(*renders); },
+        [renders, &golden] { return field_of_view(*renders, golden.mean); }};
 }
 
 } // namespace cli

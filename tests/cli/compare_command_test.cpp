@@ -279,21 +279,24 @@ TEST_F(CompareCommand, ALayerIsChosenByName)
     EXPECT_NE(batch.err.find("is one batch: give its samples by -s"), std::string::npos) << batch.err;
 }
 
-/// directional_over_plane with a mirror that stands on the plane: half of the light has paths of 3 edges.
+/// directional_over_plane with a mirror that stands on the plane: half of the light has paths of 3
+/// edges.
 std::string scene_with_mirror()
 {
     std::string text = read_bytes(scene_file("directional_over_plane"));
     const auto insert_before = [&](const char* mark, const std::string& what) {
         text.insert(text.rfind(mark), what);
     };
-    insert_before("</library_effects>",
-                  R"(<effect id="mirror-effect"><profile_COMMON><technique sid="common"><lambert/></technique>
+    insert_before(
+        "</library_effects>",
+        R"(<effect id="mirror-effect"><profile_COMMON><technique sid="common"><lambert/></technique>
                   </profile_COMMON><extra><technique profile="CMU462"><mirror><reflectance>0.9 0.9 0.9
                   </reflectance></mirror></technique></extra></effect>)");
     insert_before("</library_materials>",
                   R"(<material id="mirror"><instance_effect url="#mirror-effect"/></material>)");
-    insert_before(R"(<node id="ball-node">)",
-                  R"(<node id="mirror-node"><matrix>0.16 0 0.6 0.3  0.12 0 -0.8 0.2  0 0.2 0 0  0 0 0 1</matrix>
+    insert_before(
+        R"(<node id="ball-node">)",
+        R"(<node id="mirror-node"><matrix>0.16 0 0.6 0.3  0.12 0 -0.8 0.2  0 0.2 0 0  0 0 0 1</matrix>
                   <instance_geometry url="#plane"><bind_material><technique_common>
                   <instance_material symbol="ground" target="#mirror"/>
                   </technique_common></bind_material></instance_geometry></node>)");
@@ -311,13 +314,14 @@ TEST_F(CompareCommand, RendersOfTheSceneFindMoreMistakes)
         text[place] = 'x';
     write_bytes(other, text);
     golden_file = (folder / "mirror.exr").string();
-    ASSERT_EQ(run({"golden", scene, "--folder", folder.path().string(), "--size", "18x12", "--batch", "8",
-                   "--pilot", "64", "-s", "2048", "--max-edges", "3", "-q"})
+    ASSERT_EQ(run({"golden", scene, "--folder", folder.path().string(), "--size", "18x12", "--batch",
+                   "8", "--pilot", "64", "-s", "2048", "--max-edges", "3", "-q"})
                   .status,
               0);
     const auto render_wrong = [&](const std::string& file, const char* edges) {
-        const Outcome outcome = run({"render", file, "-o", wrong, "--size", "18x12", "-s", "1024", "--batch",
-                                     "8", "--integrator", "bdpt", "--max-edges", edges, "-q"});
+        const Outcome outcome =
+            run({"render", file, "-o", wrong, "--size", "18x12", "-s", "1024", "--batch", "8",
+                 "--integrator", "bdpt", "--max-edges", edges, "-q"});
         ASSERT_EQ(outcome.status, 0) << outcome.err;
     };
     const auto expect = [&](const std::string& mistake) {
@@ -342,7 +346,10 @@ TEST_F(CompareCommand, HalfAPixelIsFoundByARenderOfTheScene)
 {
     // Pixels of half the size, taken together one to the left and above of where they should be.
     const std::string wrong = (folder / "wrong.pfm").string();
-    render(wrong, {"--integrator", "bdpt", "--size", "32x32", "-s", "128"});
+    ASSERT_EQ(run({"render", scene_file("directional_over_plane"), "-o", wrong, "--integrator", "bdpt",
+                   "--size", "32x32", "-s", "128", "--batch", "8", "--max-edges", "6"})
+                  .status,
+              0);
     const images::Image fine = images::read_pfm(wrong);
     images::Image shifted(16, 16);
     for (int y = 0; y < shifted.height; ++y)
