@@ -346,7 +346,10 @@ TEST_F(CompareCommand, HalfAPixelIsFoundByARenderOfTheScene)
 {
     // Pixels of half the size, taken together one to the left and above of where they should be.
     const std::string wrong = (folder / "wrong.pfm").string();
-    render(wrong, {"--integrator", "bdpt", "--size", "32x32", "-s", "128"});
+    ASSERT_EQ(run({"render", scene_file("directional_over_plane"), "-o", wrong, "--integrator", "bdpt",
+                   "--size", "32x32", "-s", "128", "--batch", "8", "--max-edges", "6"})
+                  .status,
+              0);
     const images::Image fine = images::read_pfm(wrong);
     images::Image shifted(16, 16);
     for (int y = 0; y < shifted.height; ++y)

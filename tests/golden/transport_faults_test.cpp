@@ -130,7 +130,6 @@ TEST_F(TransportFaults, WrongPicturesOfAnotherKindGetNone)
                                                  {1, 0.5, 1, 1, 0},
                                                  {1, 1, 0, 1, 0},
                                                  {0.5, 1, 1, 1, 0},
-                                                 {1, 1, 1, 1, 3},
                                                  {0, 0, 1, 1, 0}}) {
         EXPECT_NE(judged({weighted(weights)}).verdict, golden::Verdict::pass);
         EXPECT_EQ(name_of(weights), "");
