@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "cli/quoted.h"
 #include "cli/temporary_folder.h"
+#include "cli/words_after_dashes.h"
 #include "images/atomic_file.h"
 
 #include <CLI/CLI.hpp>
@@ -111,6 +112,10 @@ ExitStatus check_builder(const CheckBuilderCommand& options)
     limits.checks.tight = !options.loose;
     limits.checks.max_depth = options.max_depth;
     limits.stop = interrupt_requested;
+    if (options.command.empty())
+        throw std::invalid_argument(
+            "no builder is given: its command follows --, as in plumbline check-builder -- ./mine "
+            "{primitives} {tree} (plumbline check-builder --help)");
     images::check_place(options.keep);
     catch_interrupts();
 
@@ -125,10 +130,6 @@ ExitStatus check_builder(const CheckBuilderCommand& options)
 
 void add_check_builder_options(CLI::App& command, CheckBuilderCommand& options)
 {
-    command
-        .add_option("command", options.command,
-                    "After --: your program, with {primitives} and {tree} among its words")
-        ->required();
     command.add_option("--input", options.input, "Try the primitives in this file only: .npy, .json");
     command.add_option("--keep", options.keep, "File for the smallest input that fails: .npy")
         ->capture_default_str();
@@ -137,7 +138,6 @@ void add_check_builder_options(CLI::App& command, CheckBuilderCommand& options)
     command.add_flag("--loose", options.loose, "Boxes may be larger than necessary");
     command.add_option("--max-depth", options.max_depth,
                        "Most edges from the root to a leaf [no limit]");
-    // One word each: a list of words would end at the "--" before the command, and swallow it.
     command.add_option("--only", options.kinds, "Kinds of input, as grid,flat [all]")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -175,7 +175,10 @@ void add_check_builder_command(CLI::App& program, Work& work)
     command->footer(
         "Example: plumbline check-builder -- ./my_builder {primitives} {tree}\n"
         "Exit status 1: an input fails. docs/own-code.md has the formats and the kinds of input.");
-    command->callback([options, &work] { work = [options] { return check_builder(*options); }; });
+    command->callback([options, &work] {
+        options->command = words_after_dashes();
+        work = [options] { return check_builder(*options); };
+    });
 }
 
 } // namespace cli

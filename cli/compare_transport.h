@@ -12,10 +12,9 @@ namespace cli {
 
 /// The mistakes of `options.scene`, the golden's scene, to be tried in this order, each group with the
 /// renders that it needs: paths of some lengths that are missing or too many, half a pixel aside, the
-/// field of view along the other axis. `samples`: per pixel of the
-/// candidate, which the renders have as well, but for large pictures; 0 if not known: the golden's. None
-/// if no scene was given. Throws scenes::SceneError, or std::invalid_argument if it is not the golden's
-/// scene. The groups throw
+/// field of view along the other axis. `samples`: per pixel of the candidate, which the renders have as
+/// well, but for large pictures; 0 if not known: the golden's. None if no scene was given. Throws
+/// scenes::SceneError, or std::invalid_argument if it is not the golden's scene. The groups throw
 /// Interrupted, and `golden` must outlive them.
 std::vector<golden::MakeFaults> faults_of_scene(const golden::Golden& golden, double samples,
                                                 const CompareCommand& options);

@@ -94,7 +94,8 @@ int main(int argc, char** argv)
     cli::add_check_builder_command(program, work);
     cli::add_export_command(program, work);
     cli::take_exponents(program);
-    cli::take_words_after_dashes(argc, argv, "check-renderer");
+    for (const char* name : {"check-renderer", "check-builder"})
+        cli::take_words_after_dashes(argc, argv, name);
 
     const int status = run(program, work, argc, argv);
     if (cli::flush_standard_output()) return status;

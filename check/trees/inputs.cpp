@@ -116,12 +116,9 @@ Aabb one_box(const Set& set, std::size_t i, Draw& draw)
     return {scale * (center - half), scale * (center + half)};
 }
 
-/// The nearest float. The variable is volatile because g++ 12.2 at -O2 leaves out the conversion of two
-/// neighbouring doubles to float and back.
 double rounded_to_float(double x)
 {
-    const volatile float rounded = static_cast<float>(x);
-    return rounded;
+    return static_cast<float>(x);
 }
 
 /// Every coordinate rounded to the nearest float. Rounding is monotonic: no box becomes empty.
