@@ -141,8 +141,8 @@ ExitStatus check_renderer_command(const CheckRendererCommand& options)
 void add_check_renderer_command(CLI::App& program, Work& work)
 {
     const auto options = std::make_shared<CheckRendererCommand>();
-    CLI::App* command = program.add_subcommand(
-        "check-renderer", "Check your own renderer: render the scenes with it, and judge the pictures");
+    CLI::App* command =
+        program.add_subcommand("check-renderer", "Judge another program's renderings of our scenes");
     add_check_renderer_options(*command, *options);
     command->footer(
         "Placeholders of the command after --:\n    {scene} {width} {height} {samples} {seed} "

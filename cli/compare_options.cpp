@@ -18,10 +18,8 @@ void add_compare_options(CLI::App& command, CompareCommand& options)
                     "Samples per pixel, of a picture whose metadata lack them or of a scene")
         ->check(CLI::Range(1.0, 1e12));
     command.add_option("--layer", options.layer, "Layer of the .exr files to compare [R, G and B]");
-    command.add_option(
-        "--scene", options.scene,
-        "The golden's scene, .dae: of a wrong picture also mistakes of light transport are "
-        "looked for, by renders");
+    command.add_option("--scene", options.scene,
+                       "The golden's scene, .dae: find mistakes of light transport too");
     command
         .add_option("--integrator", options.integrator,
                     "For a scene: path, bdpt or light [the golden's]")
