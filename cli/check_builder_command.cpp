@@ -2,16 +2,16 @@
 
 #include "cli/check_builder_command.h"
 
+#include "check/shell_line.h"
 #include "check/trees/check_builder.h"
 #include "check/trees/command_builder.h"
 #include "check/trees/report.h"
 #include "check/trees/tree_files.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "cli/quoted.h"
-#include "cli/temporary_folder.h"
 #include "cli/words_after_dashes.h"
 #include "images/atomic_file.h"
+#include "images/temporary_folder.h"
 
 #include <CLI/CLI.hpp>
 
@@ -50,18 +50,16 @@ std::vector<check::InputKind> chosen_kinds(const CheckBuilderCommand& options)
 
 std::string command_to_repeat(const CheckBuilderCommand& options)
 {
-    std::string text = "plumbline check-builder --input " + quoted(options.keep);
+    std::string text = "plumbline check-builder --input " + check::shell_word(options.keep);
     if (options.loose) text += " --loose";
     if (options.max_depth) text += " --max-depth " + std::to_string(*options.max_depth);
-    text += " --";
-    for (const std::string& word : options.command) text += " " + quoted(word);
-    return text;
+    return text + " -- " + check::shell_line(options.command);
 }
 
 check::BuilderReport tried(const CheckBuilderCommand& options, check::BuilderOptions limits,
                            check::PrimitiveFormat& format)
 {
-    const TemporaryFolder folder;
+    const images::TemporaryFolder folder;
     check::Primitives input;
     if (!options.input.empty()) {
         input = check::read_primitives(options.input);

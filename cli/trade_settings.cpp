@@ -1,7 +1,7 @@
 #include "cli/trade_settings.h"
 
+#include "check/shell_line.h"
 #include "cli/idle_options.h"
-#include "cli/quoted.h"
 
 #include <CLI/CLI.hpp>
 
@@ -25,7 +25,7 @@ std::string command_line(const Settings& settings, const TradeView& view)
 {
     std::string line = "plumbline";
     for (const std::string& argument : arguments_of(settings, view)) {
-        line += " " + quoted(argument);
+        line += " " + check::shell_word(argument);
         if (argument == view.scene) line += " -o picture.exr";
     }
     return line;

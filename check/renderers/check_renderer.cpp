@@ -3,6 +3,7 @@
 #include "check/renderers/common_cause.h"
 #include "check/renderers/render_picture.h"
 #include "check/renderers/seeds.h"
+#include "check/shell_line.h"
 #include "images/image_error.h"
 
 #include <algorithm>

@@ -13,9 +13,9 @@ Feature feature_of(scenes::Shape shape)
 {
     switch (shape) {
     case scenes::Shape::triangle:
-        return {"triangle", "triangles"};
+        return {name_of(shape), "triangles"};
     case scenes::Shape::sphere:
-        return {"sphere", "spheres"};
+        return {name_of(shape), "spheres"};
     }
     return {};
 }
@@ -24,11 +24,11 @@ Feature feature_of(scenes::Bsdf bsdf)
 {
     switch (bsdf) {
     case scenes::Bsdf::lambertian:
-        return {"lambertian", "Lambertian surfaces"};
+        return {name_of(bsdf), "Lambertian surfaces"};
     case scenes::Bsdf::mirror:
-        return {"mirror", "a mirror"};
+        return {name_of(bsdf), "a mirror"};
     case scenes::Bsdf::glass:
-        return {"glass", "glass"};
+        return {name_of(bsdf), "glass"};
     }
     return {};
 }
@@ -56,13 +56,13 @@ Feature feature_of(scenes::Strategy strategy)
 {
     switch (strategy) {
     case scenes::Strategy::emission_hit:
-        return {"emission_hit", "emitters that a ray can hit"};
+        return {name_of(strategy), "emitters that a ray can hit"};
     case scenes::Strategy::next_event:
-        return {"next_event", "light that next-event estimation finds"};
+        return {name_of(strategy), "light that next-event estimation finds"};
     case scenes::Strategy::light_image:
-        return {"light_image", "light that paths from the emitters bring to the pinhole"};
+        return {name_of(strategy), "light that paths from the emitters bring to the pinhole"};
     case scenes::Strategy::inner_connection:
-        return {"inner_connection", "light that connections of two subpaths find"};
+        return {name_of(strategy), "light that connections of two subpaths find"};
     }
     return {};
 }

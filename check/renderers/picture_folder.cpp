@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -64,18 +62,13 @@ std::string first_difference(const Json& a, const Json& b)
 
 } // namespace
 
-PictureFolder::PictureFolder() : kept_(false)
+PictureFolder::PictureFolder()
 {
-    std::string name = (fs::temp_directory_path() / "plumbline-check-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-        throw std::runtime_error(
-            name + ": a temporary folder cannot be made: " + std::generic_category().message(errno));
-    folder_ = name;
+    folder_ = temporary_.emplace().path();
 }
 
 PictureFolder::PictureFolder(const fs::path& kept, const Origin& origin,
                              const std::vector<SuiteScene>& scenes)
-    : kept_(true)
 {
     std::error_code error;
     fs::create_directories(kept, error);
@@ -110,12 +103,6 @@ PictureFolder::PictureFolder(const fs::path& kept, const Origin& origin,
     }
     state["scenes"] = hashes;
     images::write_atomically(file, state.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-}
-
-PictureFolder::~PictureFolder()
-{
-    std::error_code ignored;
-    if (!kept_) fs::remove_all(folder_, ignored);
 }
 
 fs::path PictureFolder::place(const std::string& scene, std::uint64_t number,

@@ -3,9 +3,11 @@
 // The folder with a renderer's pictures: a temporary one, or one that is kept and gone on with.
 
 #include "check/renderers/suite.h"
+#include "images/temporary_folder.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +25,8 @@ struct Origin {
 /// their origin.
 class PictureFolder {
 public:
-    /// A temporary folder, removed with all that is in it by the destructor. Throws std::runtime_error.
+    /// A temporary folder, removed with all that is in it by the destructor. Throws as
+    /// images::TemporaryFolder.
     PictureFolder();
 
     /// The folder `kept`, which is made if it does not exist. Throws std::invalid_argument if it holds
@@ -33,11 +36,7 @@ public:
     PictureFolder(const std::filesystem::path& kept, const Origin& origin,
                   const std::vector<SuiteScene>& scenes);
 
-    PictureFolder(const PictureFolder&) = delete;
-    PictureFolder& operator=(const PictureFolder&) = delete;
-    ~PictureFolder();
-
-    [[nodiscard]] bool is_kept() const { return kept_; }
+    [[nodiscard]] bool is_kept() const { return !temporary_; }
 
     /// The place of a finished picture, an absolute path. `number` is at least 1.
     [[nodiscard]] std::filesystem::path place(const std::string& scene, std::uint64_t number,
@@ -49,8 +48,8 @@ public:
                                                    const std::string& ending) const;
 
 private:
+    std::optional<images::TemporaryFolder> temporary_; // none: the folder is kept
     std::filesystem::path folder_;
-    bool kept_;
 };
 
 } // namespace check

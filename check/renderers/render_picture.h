@@ -48,7 +48,4 @@ images::Image read_candidate(const std::filesystem::path& path, int width, int h
 PictureAttempt render_picture(const std::vector<std::string>& command, const PictureTask& task,
                               double limit, const std::function<bool()>& stop);
 
-/// The words as one line that a shell reads as these words.
-std::string shell_line(const std::vector<std::string>& words);
-
 } // namespace check

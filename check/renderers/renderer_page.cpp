@@ -1,8 +1,8 @@
 #include "check/renderers/renderer_page.h"
 
-#include "check/renderers/render_picture.h"
 #include "check/renderers/renderer_page_parts.h" // made from the files in page/
 #include "check/renderers/renderer_results.h"
+#include "check/shell_line.h"
 #include "golden/reason.h"
 #include "images/base64.h"
 #include "images/exposure.h"

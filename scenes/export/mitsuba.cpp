@@ -196,10 +196,7 @@ private:
     /// Mitsuba's spot light is constant up to beam_width and then fades linearly to cutoff_angle.
     void emitter(const SpotLight& light, std::size_t index)
     {
-        if (light.exponent != 0.0)
-            refuse(scene_, light_name(light, index),
-                   "Mitsuba has no spot light that fades by a power of the cosine (exponent " +
-                       exact(light.exponent) + ")");
+        expect_constant(scene_, light, index, "Mitsuba");
         const auto [x, y, z] = frame_of(light.direction);
         open("emitter", "spot");
         rgb("intensity", light.intensity);

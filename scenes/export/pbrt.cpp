@@ -184,10 +184,7 @@ private:
     }
     void source(const SpotLight& light, std::size_t index)
     {
-        if (light.exponent != 0.0)
-            refuse(scene_, light_name(light, index),
-                   "pbrt-v4 has no spot light that fades by a power of the cosine (exponent " +
-                       exact(light.exponent) + ")");
+        expect_constant(scene_, light, index, "pbrt-v4");
         // Placed by the transform: from + direction would round.
         const auto [x, y, z] = frame_of(light.direction);
         line("AttributeBegin");

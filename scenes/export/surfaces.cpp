@@ -1,6 +1,8 @@
 #include "scenes/export/surfaces.h"
 
 #include "scenes/bounds.h"
+#include "scenes/export/exact.h"
+#include "scenes/for_each_light.h"
 #include "scenes/read_scene.h"
 
 #include <glm/common.hpp>
@@ -93,6 +95,15 @@ std::string stem_of(std::string_view file_name)
 void refuse(const Scene& scene, const std::string& thing, const std::string& why)
 {
     throw SceneError(scene.name + ": " + thing + ": " + why);
+}
+
+void expect_constant(const Scene& scene, const SpotLight& light, std::size_t index,
+                     const std::string& format)
+{
+    if (light.exponent == 0.0) return;
+    refuse(scene, light_name(light, index),
+           format + " has no spot light that fades by a power of the cosine (exponent " +
+               exact(light.exponent) + ")");
 }
 
 std::string material_name(const Scene& scene, std::uint32_t material)

@@ -50,6 +50,10 @@ std::string stem_of(std::string_view file_name);
 /// Throws the SceneError "SCENE: THING: FORMAT WHY".
 [[noreturn]] void refuse(const Scene& scene, const std::string& thing, const std::string& why);
 
+/// Refuses a spot light whose intensity is not the same in all of its cone. `format` has no such light.
+void expect_constant(const Scene& scene, const SpotLight& light, std::size_t index,
+                     const std::string& format);
+
 /// The name of a material for messages.
 std::string material_name(const Scene& scene, std::uint32_t material);
 
