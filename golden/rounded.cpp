@@ -6,8 +6,7 @@
 
 namespace golden {
 
-// Never inlined: g++ 12.2 at -O2 removes a pair of conversions double-float-double in vector registers.
-[[gnu::noinline]] float to_float(double value)
+float to_float(double value)
 {
     return static_cast<float>(value);
 }

@@ -34,10 +34,8 @@ bool has_area_in_double(const scenes::Triangle& triangle)
 namespace {
 
 /// Computed in double, where differences and products of floats are exact unless they are of very
-/// different size; and rounding does not make equal products differ. Must not be inlined: where GCC
-/// 12.2 vectorises the conversion of a double to float and back, it drops the rounding, and the test
-/// would see the triangle before it is rounded.
-[[gnu::noinline]] bool has_area_in_float(const Triangle& triangle)
+/// different size; and rounding does not make equal products differ.
+bool has_area_in_float(const Triangle& triangle)
 {
     const auto& v = triangle.vertices;
     const scenes::Vec3 e1 = scenes::Vec3(v[1]) - scenes::Vec3(v[0]);

@@ -69,19 +69,12 @@ inline bool same_bits(const images::Image& a, const images::Image& b)
     return true;
 }
 
-/// The float nearest to `value`. Not inlined: g++ 12.2 at -O2 treats a pair of conversions
-/// double-float-double in vector registers as no change, and removes it.
-[[gnu::noinline]] inline float nearest_float(double value)
-{
-    return static_cast<float>(value);
-}
-
 /// `image` after its values were stored as floats in a file.
 inline images::Image rounded_to_float(images::Image image)
 {
     for (images::Rgb& pixel : image.pixels)
         for (int channel = 0; channel < 3; ++channel)
-            pixel[channel] = static_cast<double>(nearest_float(pixel[channel]));
+            pixel[channel] = static_cast<double>(static_cast<float>(pixel[channel]));
     return image;
 }
 

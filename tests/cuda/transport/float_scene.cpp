@@ -15,11 +15,6 @@ namespace {
 
 using scenes::Vec3;
 
-[[gnu::noinline]] float to_float(double x)
-{
-    return static_cast<float>(x);
-}
-
 double rounded(double x)
 {
     return nearest_float(x);
@@ -100,7 +95,7 @@ double scale_of(const scenes::Bounds& box)
 
 double nearest_float(double x)
 {
-    return static_cast<double>(to_float(x));
+    return static_cast<double>(static_cast<float>(x));
 }
 
 scenes::Vec3 nearest_float(const scenes::Vec3& v)

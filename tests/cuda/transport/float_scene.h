@@ -13,9 +13,7 @@ namespace fast_transport_test {
 /// does not change.
 scenes::Scene float_scene(scenes::Scene scene);
 
-/// `x` rounded to the nearest float. GCC 12.2 drops the rounding from double to float and back
-/// wherever it vectorises it (p[0] = (float)p[0]; p[1] = (float)p[1]; at -O2). A call that is not
-/// inlined keeps the rounding.
+/// `x` rounded to the nearest float.
 double nearest_float(double x);
 scenes::Vec3 nearest_float(const scenes::Vec3& v);
 

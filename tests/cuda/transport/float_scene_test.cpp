@@ -61,8 +61,7 @@ TEST(FloatScene, IsLeftWhereItIs)
 
 bool is_float(double x)
 {
-    const volatile auto nearest = static_cast<float>(x);
-    return static_cast<double>(nearest) == x;
+    return static_cast<double>(static_cast<float>(x)) == x;
 }
 
 bool is_float(const scenes::Vec3& v)
