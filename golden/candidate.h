@@ -23,12 +23,15 @@ public:
 
     [[nodiscard]] std::uint64_t batches() const { return film_.batches(); }
     [[nodiscard]] const images::Film& film() const { return film_; }
+    /// Sums over the batches of (batch - mean)^3, per pixel.
+    [[nodiscard]] const images::Image& cubes() const { return cubes_; }
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
     [[nodiscard]] const Functionals& functionals() const { return *functionals_; }
 
 private:
     const Functionals* functionals_;
     images::Film film_;
+    images::Image cubes_;
     std::vector<Row> rows_;
 };
 

@@ -79,7 +79,7 @@ Comparison first_stage(const Golden& golden, const Candidate& candidate, Method 
     const Judge judge(golden, method, options);
     for (std::size_t c = 0; c < channel_count; ++c)
         for (std::size_t f = 0; f < golden.functionals.size(); ++f)
-            if (judge.can_test(f)) comparison.findings.push_back(judge.judge(candidate.rows(), f, c));
+            if (judge.can_test(f)) comparison.findings.push_back(judge.judge(candidate, f, c));
     summarise(comparison);
     if (method == Method::ranks)
         reach_by_ranks(comparison, golden, options);
@@ -162,7 +162,7 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
     for (std::size_t stage = 1; stage < options.stages.size(); ++stage) {
         Candidate fresh(golden.functionals);
         render(stage, options.stages[stage], fresh);
-        const Finding again = judge.judge(fresh.rows(), suspicion.functional, suspicion.channel);
+        const Finding again = judge.judge(fresh, suspicion.functional, suspicion.channel);
         const double p = again.conclusive ? one_sided(again.test, suspicion.test.z) : 1.0;
         comparison.stages.push_back({fresh.batches(), p, options.confirmation_level});
         if (p >= options.confirmation_level) {

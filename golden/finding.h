@@ -40,9 +40,15 @@ struct Finding {
     /// By t tests: too dark. Either light is missing, or the batches have fewer of the rare events of
     /// this estimator than usual; then their variance and skewness are too small as well.
     bool darker_by_means = false;
+    /// The adjusted p that must be below the certainty level for FAIL at once. It is adjusted_p, or
+    /// larger for few pictures of which only few pixels show how large their noise is.
+    double certain_p = 1.0;
 };
 
 /// "green of tile x 16..31, y 0..15 (matched)"
 std::string describe(const Finding& finding);
+
+/// "green in the tile x 16..31, y 0..15": where it is, for people who do not know the weights.
+std::string describe_place(const Finding& finding);
 
 } // namespace golden

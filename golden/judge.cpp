@@ -1,5 +1,7 @@
 #include "golden/judge.h"
 
+#include "golden/pixel_noise.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -11,6 +13,7 @@ namespace {
 
 constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
 constexpr double without_end = std::numeric_limits<double>::infinity();
+constexpr MeanEstimate known_zero{0.0, 0.0, without_end};
 
 } // namespace
 
@@ -28,31 +31,52 @@ bool Judge::can_test(std::size_t functional) const
     return method_ == Method::ranks || is_linear(functionals_.at(functional).weight);
 }
 
-Finding Judge::judge(const std::vector<Row>& rows, std::size_t functional, std::size_t channel) const
+Finding Judge::judge(const Candidate& candidate, std::size_t functional, std::size_t channel) const
 {
     Finding finding = blank(functional, channel);
-    std::vector<double> ours = values_of(rows, functionals_, functional, channel);
+    std::vector<double> ours = values_of(candidate.rows(), functionals_, functional, channel);
     std::vector<double> theirs = values_of(golden_.reference, functionals_, functional, channel);
-    const Moments candidate = moments(ours);
+    const Moments pictures = moments(ours);
     const Moments reference = moments(theirs);
-    if (method_ == Method::ranks) {
-        std::sort(ours.begin(), ours.end());
-        std::sort(theirs.begin(), theirs.end());
-        finding.test = mann_whitney_beyond(ours, theirs, options_.rounding * std::abs(reference.mean));
-        finding.detectable = detectable_by_ranks(finding, theirs, candidate.count);
-    } else {
-        compare_means(finding, mean_estimate(candidate), reference,
-                      std::abs(candidate.skewness) / std::sqrt(candidate.count));
-        if (may_lack_rare_events(candidate, reference, *std::max_element(theirs.begin(), theirs.end()),
-                                 options_.certainty_level))
-            finding.conclusive = false;
-        finding.darker_by_means = reference.variance > 0.0 && finding.test.z < 0.0;
+    if (method_ == Method::welch) {
+        judge_by_means(finding, candidate, pictures, reference,
+                       *std::max_element(theirs.begin(), theirs.end()));
+        return finding;
     }
-    if (candidate.count >= 2.0 && reference.count >= 2.0)
-        finish(finding, mean_estimate(candidate), mean_estimate(reference));
+    std::sort(ours.begin(), ours.end());
+    std::sort(theirs.begin(), theirs.end());
+    finding.test = mann_whitney_beyond(ours, theirs, options_.rounding * std::abs(reference.mean));
+    finding.detectable = detectable_by_ranks(finding, theirs, pictures.count);
+    if (pictures.count >= 2.0 && reference.count >= 2.0)
+        finish(finding, mean_estimate(pictures), mean_estimate(reference));
     else
-        finding.adjusted_p = bonferroni(finding.test.p, multiplicity_.of(finding.region.kind));
+        finding.certain_p = finding.adjusted_p =
+            bonferroni(finding.test.p, multiplicity_.of(finding.region.kind));
     return finding;
+}
+
+/// `largest`: of the golden's batches.
+void Judge::judge_by_means(Finding& finding, const Candidate& candidate, const Moments& pictures,
+                           const Moments& reference, double largest) const
+{
+    const PixelNoise pixels = pixel_noise(candidate, finding.functional, finding.channel);
+    const MeanEstimate estimate = moderated(pictures, pixels);
+    compare_means(finding, estimate, reference, mean_skewness(pictures, pixels, reference),
+                  pictures.count);
+    if (may_lack_rare_events(pictures, reference, largest, options_.certainty_level))
+        finding.conclusive = false;
+    finding.darker_by_means = reference.variance > 0.0 && finding.test.z < 0.0;
+    const MeanEstimate expected = mean_estimate(reference);
+    finish(finding, estimate, expected);
+    // Welch's degrees follow the variances that are found. That of few values is far too small in one of
+    // a thousand tests, just by chance; then all noise seems to be the golden's, with its many degrees.
+    // With the variance of many pixels beside it this cannot happen. Else the smaller number of degrees
+    // counts, which is never too many [Hsu 1938].
+    if (finding.conclusive && estimate.degrees - (pictures.count - 1.0) < pixel_degrees) {
+        const MeanEstimate careful{finding.test.z, 1.0, std::min(estimate.degrees, expected.degrees)};
+        finding.certain_p =
+            bonferroni(welch(careful, known_zero).p, multiplicity_.of(finding.region.kind));
+    }
 }
 
 Finding Judge::judge(const MeanEstimate& candidate, double skewed, std::size_t functional,
@@ -60,7 +84,7 @@ Finding Judge::judge(const MeanEstimate& candidate, double skewed, std::size_t f
 {
     Finding finding = blank(functional, channel);
     const Moments reference = moments(values_of(golden_.reference, functionals_, functional, channel));
-    compare_means(finding, candidate, reference, skewed);
+    compare_means(finding, candidate, reference, skewed, 1.0);
     finish(finding, candidate, mean_estimate(reference));
     return finding;
 }
@@ -100,7 +124,7 @@ double Judge::level_of(const Finding& finding) const
 }
 
 void Judge::compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
-                          double skewed) const
+                          double skewed, double pictures) const
 {
     const double golden_skewed = std::abs(reference.skewness) / std::sqrt(reference.count);
     finding.conclusive = std::max(skewed, golden_skewed) <= options_.skewness;
@@ -112,7 +136,7 @@ void Judge::compare_means(Finding& finding, const MeanEstimate& candidate, const
                                                    options_.power) /
                              expected.mean;
     if (expected.mean > 0.0 && finding.region.kind == RegionKind::whole)
-        finding.reach = reach_of(finding, candidate, expected, skewed, golden_skewed);
+        finding.reach = reach_of(finding, candidate, expected, skewed, golden_skewed, pictures);
 }
 
 double Judge::size_of(const Finding& finding, double mean) const
@@ -124,7 +148,8 @@ double Judge::size_of(const Finding& finding, double mean) const
 }
 
 Reach Judge::reach_of(const Finding& finding, const MeanEstimate& candidate,
-                      const MeanEstimate& expected, double skewed, double golden_skewed) const
+                      const MeanEstimate& expected, double skewed, double golden_skewed,
+                      double pictures) const
 {
     const double level = level_of(finding);
     // The smallest relative error that is detectable if the difference has standard error 1.
@@ -146,7 +171,7 @@ Reach Judge::reach_of(const Finding& finding, const MeanEstimate& candidate,
     // degrees of freedom grow with the number of pictures; those of one picture's pixels stay.
     const auto enough = [&](double factor) {
         const double degrees = method_ == Method::welch
-                                   ? std::max(1.0, (candidate.degrees + 1.0) * factor - 1.0)
+                                   ? std::max(1.0, candidate.degrees + pictures * (factor - 1.0))
                                    : candidate.degrees;
         const MeanEstimate more{candidate.mean, candidate.variance / factor, degrees};
         return more.variance + expected.variance <= allowed(welch_degrees(more, expected));
@@ -163,7 +188,8 @@ Reach Judge::reach_of(const Finding& finding, const MeanEstimate& candidate,
 void Judge::finish(Finding& finding, const MeanEstimate& candidate, const MeanEstimate& reference) const
 {
     if (finding.conclusive)
-        finding.adjusted_p = bonferroni(finding.test.p, multiplicity_.of(finding.region.kind));
+        finding.certain_p = finding.adjusted_p =
+            bonferroni(finding.test.p, multiplicity_.of(finding.region.kind));
     if (reference.mean == 0.0) return;
     finding.ratio = candidate.mean / reference.mean;
     finding.interval = ratio_interval(candidate, reference, options_.confidence);

@@ -2,6 +2,7 @@
 
 // The test of one functional: batches of a candidate, or an estimate, against the golden.
 
+#include "golden/candidate.h"
 #include "golden/compare_options.h"
 #include "golden/finding.h"
 #include "golden/golden.h"
@@ -29,7 +30,7 @@ public:
     [[nodiscard]] double detectable(std::size_t functional, std::size_t channel, double batches) const;
 
     /// Tests batches. For Method::welch candidate and golden must have two at least.
-    [[nodiscard]] Finding judge(const std::vector<Row>& rows, std::size_t functional,
+    [[nodiscard]] Finding judge(const Candidate& candidate, std::size_t functional,
                                 std::size_t channel) const;
 
     /// Tests an estimate of the functional. `skewed`: |skewness| / sqrt(batches) of its noise.
@@ -38,16 +39,18 @@ public:
 
 private:
     [[nodiscard]] Finding blank(std::size_t functional, std::size_t channel) const;
+    void judge_by_means(Finding& finding, const Candidate& candidate, const Moments& pictures,
+                        const Moments& reference, double largest) const;
     [[nodiscard]] double detectable_by_ranks(const Finding& finding,
                                              const std::vector<double>& reference, double count) const;
     [[nodiscard]] double level_of(const Finding& finding) const;
     void compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
-                       double skewed) const;
+                       double skewed, double pictures) const;
     /// The size to which a relative tolerance refers, for a functional of this mean.
     [[nodiscard]] double size_of(const Finding& finding, double mean) const;
     [[nodiscard]] Reach reach_of(const Finding& finding, const MeanEstimate& candidate,
-                                 const MeanEstimate& expected, double skewed,
-                                 double golden_skewed) const;
+                                 const MeanEstimate& expected, double skewed, double golden_skewed,
+                                 double pictures) const;
     void finish(Finding& finding, const MeanEstimate& candidate, const MeanEstimate& reference) const;
 
     const Golden& golden_;

@@ -25,6 +25,13 @@ double largest(const std::array<double, 3>& errors)
     return result;
 }
 
+/// "= 0.013"; a p-value that is rounded to 0 is not 0.
+std::string say_p(double p)
+{
+    constexpr double smallest = 1e-300;
+    return p < smallest ? "< 1e-300" : "= " + say(p, 2);
+}
+
 std::string say_fixed(double number)
 {
     std::array<char, 64> text{};
@@ -88,13 +95,13 @@ std::string say(double number, int digits)
 std::string say_suspicion(const Comparison& comparison)
 {
     const Finding& finding = comparison.findings[*comparison.suspicion];
-    std::string text = describe(finding);
-    if (is_linear(finding.weight) && !std::isnan(finding.ratio))
-        text += " is " + say(finding.ratio, 4) + " times the golden's (" + say(finding.interval.low, 4) +
-                " to " + say(finding.interval.high, 4) + ")";
+    std::string text = describe_place(finding);
+    if (is_linear(finding.weight) && !std::isnan(finding.ratio) && std::isfinite(finding.interval.high))
+        text += " is " + say(finding.ratio, 4) + " times the golden's (99% interval " +
+                say(finding.interval.low, 4) + " to " + say(finding.interval.high, 4) + ")";
     else
         text += finding.test.z > 0.0 ? " is brighter than the golden's" : " is darker than the golden's";
-    return text + ", p = " + say(comparison.p, 2);
+    return text + ", p " + say_p(comparison.p);
 }
 
 std::string say_shortfall(const Comparison& comparison)

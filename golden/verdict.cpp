@@ -38,7 +38,7 @@ std::optional<std::size_t> sharpest_in(const std::vector<Finding>& findings, std
 
 std::string below_certainty_level(const CompareOptions& options)
 {
-    return ", below the certainty level of " + say(options.certainty_level, 3);
+    return ". A right picture differs so much with a chance below " + say(options.certainty_level, 3);
 }
 
 /// The channel with the largest detectable error; none if the golden is black.
@@ -135,7 +135,7 @@ void pass_or_inconclusive(Comparison& comparison, const CompareOptions& options,
 void fail(Comparison& comparison, const std::string& how)
 {
     comparison.verdict = Verdict::fail;
-    give_reason(comparison, say_suspicion(comparison) + how + ".");
+    give_reason(comparison, "The picture is wrong: " + say_suspicion(comparison) + how + ".");
 }
 
 bool decide_at_once(Comparison& comparison, const CompareOptions& options, bool can_render_again)
@@ -153,7 +153,7 @@ bool decide_at_once(Comparison& comparison, const CompareOptions& options, bool 
         return true;
     }
     const auto certain = [&](const Finding& finding) {
-        return finding.conclusive && finding.adjusted_p < options.certainty_level &&
+        return finding.conclusive && finding.certain_p < options.certainty_level &&
                !(can_render_again && finding.darker_by_means);
     };
     if (std::ranges::any_of(comparison.findings, certain)) {
@@ -168,7 +168,9 @@ void decide_without(Comparison& comparison, const Comparison& without, const Com
     comparison.false_alarm += options.certainty_level;
     const std::string them = bright_pixels(comparison.odd).size() == 1 ? "it" : "them";
     // Removing bright pixels makes a picture darker, so only a difference to the bright side counts.
-    if (without.p < options.certainty_level && without.findings[*without.suspicion].test.z > 0.0) {
+    if (without.p < options.suspicion_level &&
+        without.findings[*without.suspicion].certain_p < options.certainty_level &&
+        without.findings[*without.suspicion].test.z > 0.0) {
         comparison.verdict = Verdict::fail;
         give_reason(comparison, "Without " + them + ", " + say_suspicion(without) +
                                     below_certainty_level(options) + ".");

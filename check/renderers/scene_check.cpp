@@ -1,6 +1,5 @@
 #include "check/renderers/scene_check.h"
 
-#include "check/renderers/certainty.h"
 #include "golden/compare.h"
 #include "golden/diagnosis.h"
 #include "golden/independence.h"
@@ -107,14 +106,6 @@ void SceneCheck::judge()
     if (std::isfinite(hidden) && beyond_golden_noise * hidden > error_) {
         error_ = beyond_golden_noise * hidden;
         comparison_ = judged(pictures_, error_);
-    }
-    if (comparison_->verdict == golden::Verdict::fail &&
-        !is_certain(golden_, *comparison_, pictures_.size())) {
-        comparison_->verdict = golden::Verdict::inconclusive;
-        comparison_->shortfall.reset();
-        golden::give_reason(*comparison_, "Suspicious: " + golden::say_suspicion(*comparison_) +
-                                              ", but " + std::to_string(pictures_.size()) +
-                                              " pictures are too few to be certain.");
     }
     false_alarm_ += comparison_->false_alarm;
     wanted_ = next();

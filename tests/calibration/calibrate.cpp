@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -175,6 +176,58 @@ void write_other_estimators(std::ostream& out, const Tick& tick)
     out << "\n";
 }
 
+constexpr std::array few_pictures = {2, 4, 8, 16, 32, 64};
+constexpr std::array few_noises = {Noise::lognormal, Noise::gamma, Noise::pareto_25};
+constexpr std::array few_wrong = {0.99, 0.97};
+
+Plan few_right_plan()
+{
+    return make_plan(64, 5, 20);
+}
+
+Plan few_wrong_plan()
+{
+    return make_plan(64, 1, 20);
+}
+
+std::string triple(const Verdicts& v)
+{
+    return std::to_string(v.pass) + " / " + std::to_string(v.fail) + " / " +
+           std::to_string(v.inconclusive);
+}
+
+void write_few_pictures(std::ostream& out, const Tick& tick)
+{
+    Plan right_plan = few_right_plan();
+    right_plan.tick = tick;
+    Plan wrong_plan = few_wrong_plan();
+    wrong_plan.tick = tick;
+    out << "Few pictures of another renderer, of 64x64 pixels and 64 samples each, against goldens with "
+           "lognormal noise; PASS / FAIL / INCONCLUSIVE. "
+        << trials_of(right_plan) << " right candidates each, and " << trials_of(wrong_plan)
+        << " wrong ones:\n\n| pictures | noise | right | suspected (at most 5%) | detectable error | "
+           "conclusive | p < 1e-3 | p < 1e-5 | 1% too dark | 3% too dark |\n"
+           "|---|---|---|---|---|---|---|---|---|---|\n";
+    for (const int pictures : few_pictures)
+        for (const Noise noise : few_noises) {
+            const FewPictures r =
+                measure_few_pictures(pictures, Noise::lognormal, noise, {}, right_plan);
+            out << "| " << pictures << " | " << name(noise) << " | " << triple(r.verdicts) << " | "
+                << percent(rate(r.suspected)) << " | "
+                << (std::isinf(r.detectable) ? "none" : percent(r.detectable)) << " | "
+                << percent(r.conclusive) << " | " << number("%.1e", rate(r.below_1e3)) << " | "
+                << number("%.1e", rate(r.below_1e5)) << " |";
+            for (const double factor : few_wrong)
+                out << " "
+                    << triple(measure_few_pictures(pictures, Noise::lognormal, noise,
+                                                   {.everywhere = factor}, wrong_plan)
+                                  .verdicts)
+                    << " |";
+            out << "\n";
+        }
+    out << "\n";
+}
+
 void write_other_criteria(std::ostream& out, const Tick& tick)
 {
     Plan plan = criterion_plan();
@@ -213,6 +266,10 @@ std::vector<Table> tables()
             {"false-alarms", write_false_alarms,
              static_cast<double>(noises.size()) * trials_of(false_alarm_plan())},
             {"power", write_power, power_trials},
+            {"few-pictures", write_few_pictures,
+             static_cast<double>(few_pictures.size() * few_noises.size()) *
+                 (trials_of(few_right_plan()) +
+                  static_cast<double>(few_wrong.size()) * trials_of(few_wrong_plan()))},
             {"other-estimators", write_other_estimators, 2.0 * 3.0 * 2.0 * trials_of(estimator_plan())}};
 }
 

@@ -59,6 +59,11 @@ void for_each_trial(const SimulatedRenderer& renderer, const Plan& plan, const T
     }
 }
 
+double trials_of(const Plan& plan)
+{
+    return static_cast<double>(plan.goldens) * static_cast<double>(plan.trials);
+}
+
 std::vector<double> sorted_values(const std::vector<golden::Row>& rows,
                                   const golden::Functionals& functionals, const golden::Finding& finding)
 {
@@ -160,6 +165,49 @@ Verdicts measure_verdicts(Method method, Noise golden_noise, Noise candidate_noi
         result.fail += verdict == golden::Verdict::fail;
         result.inconclusive += verdict == golden::Verdict::inconclusive;
     });
+    return result;
+}
+
+FewPictures measure_few_pictures(int pictures, Noise golden_noise, Noise candidate_noise,
+                                 const Bias& bias, const Plan& plan)
+{
+    constexpr std::uint64_t batches = 16; // of 4 samples, per picture
+    const SimulatedRenderer renderer(plan.size, golden_noise);
+    const SimulatedRenderer other(plan.size, candidate_noise);
+    FewPictures result;
+    std::vector<double> detectable;
+    std::mutex mutex;
+    for_each_trial(renderer, plan, [&](const Golden& golden, std::uint64_t seed) {
+        std::vector<images::Image> given;
+        for (int i = 0; i < pictures; ++i) {
+            images::Film film(plan.size, plan.size);
+            for (std::uint64_t batch = 0; batch < batches; ++batch)
+                film.add_batch(
+                    other.render(seed, static_cast<std::uint64_t>(i) * batches + batch, bias));
+            given.push_back(film.mean());
+        }
+        const golden::CompareOptions options;
+        const golden::Comparison comparison = compare_pictures(golden, given, options);
+        const std::lock_guard lock(mutex);
+        result.verdicts.pass += comparison.verdict == golden::Verdict::pass;
+        result.verdicts.fail += comparison.verdict == golden::Verdict::fail;
+        result.verdicts.inconclusive += comparison.verdict == golden::Verdict::inconclusive;
+        result.suspected.hits += comparison.p < options.suspicion_level;
+        ++result.suspected.trials;
+        detectable.push_back(
+            *std::max_element(comparison.detectable.begin(), comparison.detectable.end()));
+        result.conclusive += comparison.coverage / trials_of(plan);
+        for (const golden::Finding& finding : comparison.findings) {
+            if (!finding.conclusive || finding.test.p == 1.0) continue;
+            ++result.below_1e3.trials;
+            ++result.below_1e5.trials;
+            result.below_1e3.hits += finding.test.p < 1e-3;
+            result.below_1e5.hits += finding.test.p < 1e-5;
+        }
+    });
+    const auto middle = detectable.begin() + static_cast<std::ptrdiff_t>(detectable.size() / 2);
+    std::nth_element(detectable.begin(), middle, detectable.end());
+    result.detectable = *middle;
     return result;
 }
 

@@ -58,6 +58,17 @@ struct Verdicts {
 Verdicts measure_verdicts(golden::Method method, Noise golden_noise, Noise candidate_noise,
                           const Bias& bias, const Plan& plan);
 
+/// The results for few pictures of another renderer, each of 64 samples (compare_pictures).
+struct FewPictures {
+    Verdicts verdicts;
+    Count suspected;
+    double detectable = 0.0; // median of the detectable errors, least sensitive channel; may be infinite
+    double conclusive = 0.0; // mean share of conclusive tests
+    Count below_1e3, below_1e5; // single conclusive tests, as in FalseAlarms
+};
+FewPictures measure_few_pictures(int pictures, Noise golden_noise, Noise candidate_noise,
+                                 const Bias& bias, const Plan& plan);
+
 /// For each of other_criteria(): of `plan.trials` pictures of 256 samples with this bias, the number
 /// that the criterion finds worse than all but one in a hundred of as many right ones. This is its power
 /// with a threshold set for 1% of false alarms.

@@ -76,4 +76,35 @@ TEST_F(Reason, IsNotGivenForAPass)
     EXPECT_EQ(say_possible_causes(result, golden, {}, image), "");
 }
 
+TEST_F(Reason, IsUnderstoodWithoutTheDocumentation)
+{
+    const auto reason = [](double factor, std::uint64_t seed) {
+        const Image image = picture(256, seed, {.everywhere = factor});
+        return golden::compare_picture(six_edges(), image, 1024.0).reason;
+    };
+    const std::string wrong = reason(0.5, 7);
+    EXPECT_EQ(wrong.find("The picture is wrong: "), 0U) << wrong;
+    EXPECT_NE(wrong.find("p < 1e-300. A right picture differs so much with a chance below 1e-08."),
+              std::string::npos)
+        << wrong;
+    for (const char* jargon : {"matched", "plain", "bounded", "certainty level", "p = 0,"})
+        EXPECT_EQ(wrong.find(jargon), std::string::npos) << wrong;
+}
+
+TEST(PlaceOfAFinding, IsNamedInWords)
+{
+    golden::Finding finding{};
+    finding.channel = 1;
+    const auto place = [&](golden::RegionKind kind) {
+        finding.region = {kind, 2, 8, 16, 16, 24, 64};
+        return describe_place(finding);
+    };
+    EXPECT_EQ(place(golden::RegionKind::whole), "green in the whole picture");
+    EXPECT_EQ(place(golden::RegionKind::fine_tile), "green in the tile x 8..15, y 16..23");
+    EXPECT_EQ(place(golden::RegionKind::luminance),
+              "green in the pixels of luminance stratum 3 of 16 (1: the darkest)");
+    EXPECT_EQ(place(golden::RegionKind::noise),
+              "green in the pixels of noise stratum 3 of 16 (1: the least noise)");
+}
+
 } // namespace

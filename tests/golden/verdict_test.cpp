@@ -26,7 +26,7 @@ protected:
         images::Image image = reference().mean;
         for (images::Rgb& pixel : image.pixels) pixel *= factor;
         for (int batch = 0; batch < 32; ++batch) candidate.add_batch(image);
-        return judge.judge(candidate.rows(), 0, 0);
+        return judge.judge(candidate, 0, 0);
     }
 
     /// The finding of the whole picture for 32 batches with noise, whose mean is half of the golden's.
@@ -34,7 +34,7 @@ protected:
     {
         golden::Candidate noisy = candidate({.everywhere = 0.5}, 32);
         const golden::CompareOptions options;
-        return golden::Judge(reference(), method, options).judge(noisy.rows(), 0, 0);
+        return golden::Judge(reference(), method, options).judge(noisy, 0, 0);
     }
 
     /// Whether these findings alone are enough for a verdict. If they are, the verdict must be FAIL.
