@@ -50,6 +50,15 @@ std::string percent_text(double share)
     return text.data();
 }
 
+/// "+2.31"; "none" where neither side has noise.
+std::string z_text(double z)
+{
+    if (std::isinf(z)) return "none";
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%+.2f", z);
+    return text.data();
+}
+
 /// A row of the table of the whole picture: ratio and interval, or "-" where the golden is black.
 void print_whole(const golden::Finding& whole, const char* channel, double detectable)
 {
@@ -85,9 +94,9 @@ void print_screen(const golden::Comparison& comparison)
                       [](const auto* a, const auto* b) { return a->test.p < b->test.p; });
     std::printf("\nmost significant\n");
     for (std::size_t i = 0; i < shown; ++i)
-        std::printf("  z %+6.2f  p %8.2g (adjusted %8.2g)  ratio %9s  %s\n", worst[i]->test.z,
-                    worst[i]->test.p, worst[i]->adjusted_p, percent_text(worst[i]->ratio).c_str(),
-                    describe(*worst[i]).c_str());
+        std::printf("  z %6s  p %8.2g (adjusted %8.2g)  ratio %9s  %s\n",
+                    z_text(worst[i]->test.z).c_str(), worst[i]->test.p, worst[i]->adjusted_p,
+                    percent_text(worst[i]->ratio).c_str(), describe(*worst[i]).c_str());
     if (comparison.least_sensitive_stratum) {
         const golden::Finding& least_sensitive =
             comparison.findings[*comparison.least_sensitive_stratum];

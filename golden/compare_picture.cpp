@@ -20,6 +20,7 @@ struct Scatter {
     double golden;          // variance by the golden's noise, already subtracted
     double expected;        // variance of one batch of the golden's estimator
     double blocks;          // number of sums over blocks
+    double noisy_blocks;    // of those in which the golden has noise
     double blocks_skewness; // of these sums
 };
 
@@ -35,10 +36,12 @@ Scatter scatter(const Golden& golden, const images::Image& picture, std::size_t 
     const auto c = static_cast<int>(channel);
     std::vector<double> blocks;
     double golden_variance = 0.0;
+    double noisy_blocks = 0.0;
     for (int y0 = region.y0; y0 < region.y1; y0 += side)
         for (int x0 = region.x0; x0 < region.x1; x0 += side) {
             double sum = 0.0;
             bool inside = false;
+            const double golden_before = golden_variance;
             for (int y = y0; y < std::min(y0 + side, region.y1); ++y)
                 for (int x = x0; x < std::min(x0 + side, region.x1); ++x) {
                     const auto i =
@@ -52,6 +55,7 @@ Scatter scatter(const Golden& golden, const images::Image& picture, std::size_t 
                     golden_variance += error * error;
                 }
             if (inside) blocks.push_back(sum);
+            noisy_blocks += golden_variance > golden_before;
         }
     const Moments found = moments(blocks);
     double fourth = 0.0;
@@ -63,6 +67,7 @@ Scatter scatter(const Golden& golden, const images::Image& picture, std::size_t 
             golden_variance,
             golden_variance * static_cast<double>(golden.batches()),
             found.count,
+            noisy_blocks,
             found.skewness};
 }
 
@@ -72,7 +77,7 @@ void expect_independent(const Scatter& whole)
 {
     constexpr double fewest =
         64.0; // blocks: a quarter of the expected variance then has a chance of 1e-9
-    if (whole.blocks >= fewest && whole.golden > 0.0 &&
+    if (whole.noisy_blocks >= fewest && whole.golden > 0.0 &&
         whole.variance + whole.golden < 0.25 * whole.golden)
         throw std::invalid_argument("has the golden's own noise: it is not independent of the golden");
 }
@@ -98,6 +103,8 @@ Comparison look_at_picture(const Golden& golden, const images::Image& picture, d
 {
     const Functionals& functionals = golden.functionals;
     const std::vector<Row> row = {functionals.evaluate(picture)};
+    images::Film film(picture.width, picture.height);
+    film.add_batch(picture);
     Comparison comparison;
     comparison.method = Method::picture;
     comparison.golden_batches = golden.reference.size();
@@ -120,7 +127,7 @@ Comparison look_at_picture(const Golden& golden, const images::Image& picture, d
                 estimate.degrees = std::max(1.0, (shown.blocks - 1.0) * share * share);
                 skewed = std::max(skewed, std::abs(shown.blocks_skewness) / std::sqrt(shown.blocks));
             }
-            comparison.findings.push_back(judge.judge(estimate, skewed, f, c));
+            comparison.findings.push_back(judge.judge(estimate, skewed, f, c, film));
         }
     summarise(comparison);
     summarise_reach(comparison, golden, options);

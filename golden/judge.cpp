@@ -1,6 +1,7 @@
 #include "golden/judge.h"
 
 #include "golden/pixel_noise.h"
+#include "golden/rare_events.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,10 +64,12 @@ void Judge::judge_by_means(Finding& finding, const Candidate& candidate, const M
     const MeanEstimate estimate = moderated(pictures, pixels);
     compare_means(finding, estimate, reference, mean_skewness(pictures, pixels, reference),
                   pictures.count);
+    const MeanEstimate expected = mean_estimate(reference);
+    const double least = least_p_of(finding, estimate, expected, candidate.film());
+    finding.test.p = std::max(finding.test.p, least);
     if (may_lack_rare_events(pictures, reference, largest, options_.certainty_level))
         finding.conclusive = false;
     finding.darker_by_means = reference.variance > 0.0 && finding.test.z < 0.0;
-    const MeanEstimate expected = mean_estimate(reference);
     finish(finding, estimate, expected);
     // Welch's degrees follow the variances that are found. That of few values is far too small in one of
     // a thousand tests, just by chance; then all noise seems to be the golden's, with its many degrees.
@@ -74,19 +77,29 @@ void Judge::judge_by_means(Finding& finding, const Candidate& candidate, const M
     // counts, which is never too many [Hsu 1938].
     if (finding.conclusive && estimate.degrees - (pictures.count - 1.0) < pixel_degrees) {
         const MeanEstimate careful{finding.test.z, 1.0, std::min(estimate.degrees, expected.degrees)};
-        finding.certain_p =
-            bonferroni(welch(careful, known_zero).p, multiplicity_.of(finding.region.kind));
+        finding.certain_p = bonferroni(std::max(least, welch(careful, known_zero).p),
+                                       multiplicity_.of(finding.region.kind));
     }
 }
 
 Finding Judge::judge(const MeanEstimate& candidate, double skewed, std::size_t functional,
-                     std::size_t channel) const
+                     std::size_t channel, const images::Film& picture) const
 {
     Finding finding = blank(functional, channel);
     const Moments reference = moments(values_of(golden_.reference, functionals_, functional, channel));
     compare_means(finding, candidate, reference, skewed, 1.0);
-    finish(finding, candidate, mean_estimate(reference));
+    const MeanEstimate expected = mean_estimate(reference);
+    finding.test.p = std::max(finding.test.p, least_p_of(finding, candidate, expected, picture));
+    finish(finding, candidate, expected);
     return finding;
+}
+
+Reach Judge::reach(const MeanEstimate& candidate, std::size_t functional, std::size_t channel) const
+{
+    Finding finding = blank(functional, channel);
+    const Moments reference = moments(values_of(golden_.reference, functionals_, functional, channel));
+    compare_means(finding, candidate, reference, 0.0, 1.0);
+    return finding.reach;
 }
 
 Finding Judge::blank(std::size_t functional, std::size_t channel) const
@@ -123,11 +136,19 @@ double Judge::level_of(const Finding& finding) const
     return options_.suspicion_level / multiplicity_.of(finding.region.kind);
 }
 
+double Judge::least_p_of(const Finding& finding, const MeanEstimate& estimate,
+                         const MeanEstimate& expected, const images::Film& film) const
+{
+    const QuietPixels quiet = quiet_pixels(golden_, finding, film, options_.rounding, brightness_);
+    return least_p(quiet, estimate, expected, options_.rounding * size_of(finding, expected.mean));
+}
+
 void Judge::compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
                           double skewed, double pictures) const
 {
     const double golden_skewed = std::abs(reference.skewness) / std::sqrt(reference.count);
-    finding.conclusive = std::max(skewed, golden_skewed) <= options_.skewness;
+    finding.conclusive =
+        std::max(skewed, golden_skewed) <= options_.skewness && !lacks_rare_events(golden_, finding);
     const MeanEstimate expected = mean_estimate(reference);
     finding.test = welch(candidate, expected, options_.rounding * size_of(finding, expected.mean));
     if (finding.conclusive && expected.mean > 0.0)
@@ -190,7 +211,9 @@ void Judge::finish(Finding& finding, const MeanEstimate& candidate, const MeanEs
     if (finding.conclusive)
         finding.certain_p = finding.adjusted_p =
             bonferroni(finding.test.p, multiplicity_.of(finding.region.kind));
-    if (reference.mean == 0.0) return;
+    // A golden that is black after its pilot: rows are rounded, so the mean is not quite 0.
+    constexpr double black = 1e-9;
+    if (std::abs(reference.mean) < black) return;
     finding.ratio = candidate.mean / reference.mean;
     finding.interval = ratio_interval(candidate, reference, options_.confidence);
 }

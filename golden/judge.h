@@ -33,9 +33,14 @@ public:
     [[nodiscard]] Finding judge(const Candidate& candidate, std::size_t functional,
                                 std::size_t channel) const;
 
-    /// Tests an estimate of the functional. `skewed`: |skewness| / sqrt(batches) of its noise.
+    /// Tests an estimate of the functional, of one picture, a film of one batch. `skewed`: |skewness| /
+    /// sqrt(batches) of its noise.
     [[nodiscard]] Finding judge(const MeanEstimate& candidate, double skewed, std::size_t functional,
-                                std::size_t channel) const;
+                                std::size_t channel, const images::Film& picture) const;
+
+    /// What errors of the whole picture a candidate of this estimator finds. Method::welch.
+    [[nodiscard]] Reach reach(const MeanEstimate& candidate, std::size_t functional,
+                              std::size_t channel) const;
 
 private:
     [[nodiscard]] Finding blank(std::size_t functional, std::size_t channel) const;
@@ -46,6 +51,9 @@ private:
     [[nodiscard]] double level_of(const Finding& finding) const;
     void compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
                        double skewed, double pictures) const;
+    /// As least_p of golden/rare_events.h.
+    [[nodiscard]] double least_p_of(const Finding& finding, const MeanEstimate& estimate,
+                                    const MeanEstimate& expected, const images::Film& film) const;
     /// The size to which a relative tolerance refers, for a functional of this mean.
     [[nodiscard]] double size_of(const Finding& finding, double mean) const;
     [[nodiscard]] Reach reach_of(const Finding& finding, const MeanEstimate& candidate,

@@ -59,7 +59,8 @@ double mean_skewness(const Moments& pictures, const PixelNoise& pixels, const Mo
     // Samples that are splatted onto m pixels at once: the variance is m times that of independent
     // pixels, the third cumulant m^2 times, the skewness sqrt(m) times.
     const double together = pixels.variance > 0.0 ? std::max(1.0, variance / pixels.variance) : 1.0;
-    const double by_pixels = pixels.variance > 0.0 ? std::abs(pixels.skewness) * std::sqrt(together) : 0.0;
+    const double by_pixels =
+        pixels.variance > 0.0 ? std::abs(pixels.skewness) * std::sqrt(together) : 0.0;
     // The standard error of the skewness of n normal values [Fisher 1930].
     const double error = std::sqrt(6.0 * (n - 2.0) / ((n + 1.0) * (n + 3.0)));
     return std::max(by_pixels, std::abs(pictures.skewness) - 2.0 * error) / std::sqrt(n);

@@ -151,4 +151,66 @@ TEST(ComparePictures, SaysHowManyPicturesAreNeeded)
               Verdict::inconclusive);
 }
 
+/// A golden in which only the pilot has seen the rare events of one pixel.
+class RareEventsOfAPilot : public ::testing::Test {
+protected:
+    static constexpr int side = 32;
+    static images::Image grey(double value, double event)
+    {
+        images::Image image(side, side);
+        for (images::Rgb& pixel : image.pixels) pixel = images::Rgb(value);
+        image.at(5, 6) += event;
+        return image;
+    }
+    static golden::Golden only_in_pilot(double value, double event)
+    {
+        golden::GoldenMaker maker(side, side, 16);
+        for (int batch = 0; batch < 64; ++batch) maker.add_batch(grey(value, batch == 3 ? event : 0.0));
+        return maker.golden({{"batch_size", "4"}});
+    }
+};
+
+TEST_F(RareEventsOfAPilot, OfThePilotAloneDoNotMakeARightPictureFail)
+{
+    for (const auto& [value, event] : {std::pair{0.0, 0.5}, {1.8, -0.5}, {1.8, 0.5}}) {
+        const golden::Golden golden = only_in_pilot(value, event);
+        for (const int events : {2, 3}) {
+            const images::Image image = grey(value, event * events / 64.0);
+            const golden::Comparison one = golden::compare_picture(golden, image, 256.0);
+            EXPECT_NE(one.verdict, golden::Verdict::fail)
+                << value << ", " << event << ": " << one.reason;
+            std::vector<images::Image> four(4, grey(value, 0.0));
+            four[1] = image;
+            const golden::Comparison few = golden::compare_pictures(golden, four);
+            EXPECT_NE(few.verdict, golden::Verdict::fail)
+                << value << ", " << event << ": " << few.reason;
+        }
+    }
+}
+
+/// Each of the pictures has the event once, so they are equal, and the golden has none.
+TEST_F(RareEventsOfAPilot, ThatAllOfFewPicturesHaveOnceDoNotMakeThemFail)
+{
+    golden::GoldenMaker maker(side, side, 16);
+    for (int batch = 0; batch < 64; ++batch) maker.add_batch(grey(1.8, 0.0));
+    const golden::Golden golden = maker.golden({{"batch_size", "4"}});
+    const auto verdict = [&](std::size_t pictures, double value, double event) {
+        return golden::compare_pictures(golden, std::vector<images::Image>(pictures, grey(value, event)))
+            .verdict;
+    };
+    EXPECT_NE(verdict(2, 1.8, -0.01), golden::Verdict::fail);
+    EXPECT_NE(verdict(8, 1.8, -0.01), golden::Verdict::fail);
+    // e^-64 for one pixel: no coincidence. Nor if all pixels are different.
+    EXPECT_EQ(verdict(64, 1.8, -0.01), golden::Verdict::fail);
+    EXPECT_EQ(verdict(2, 1.81, 0.0), golden::Verdict::fail);
+}
+
+TEST_F(RareEventsOfAPilot, DoNotHideADifferenceElsewhere)
+{
+    const golden::Golden golden = only_in_pilot(1.8, 0.5);
+    EXPECT_EQ(golden::compare_picture(golden, grey(1.81, 0.0), 256.0).verdict, golden::Verdict::fail);
+    EXPECT_EQ(golden::compare_pictures(golden, std::vector<images::Image>(4, grey(1.81, 0.0))).verdict,
+              golden::Verdict::fail);
+}
+
 } // namespace
