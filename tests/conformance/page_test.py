@@ -5,6 +5,7 @@ import tempfile
 import unittest
 
 import page
+from renderers import RENDERERS
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PAGE = os.path.join(HERE, "..", "..", "docs", "results", "conformance.md")
@@ -14,7 +15,7 @@ def channel(ratio, low, high):
     return {"ratio": ratio, "low": low, "high": high}
 
 
-JUDGED = {"scene": "a_room", "samples": 64, "integrator": "path", "verdict": "PASS", "detectable": [0.001, 0.003, 0.002],
+JUDGED = {"scene": "a_room", "samples": 64, "integrator": "", "verdict": "PASS", "detectable": [0.001, 0.003, 0.002],
           "whole": [channel(1.0001, 1.0, 1.1), channel(0.998, 0.997, 0.999), channel(1.001, 1.0, 1.2)]}
 REFUSED = {"scene": "a_spot", "verdict": "not exported", "reason": "no such light"}
 
@@ -30,7 +31,7 @@ class Rows(unittest.TestCase):
         self.assertTrue(page.row({**JUDGED, "detectable": [0.001, None, 0.002]}).endswith("| unknown |"))
 
     def test_a_scene_that_is_not_exported_has_its_reason(self):
-        table = page.scenes({"version": "V", "pictures": 64, "processor": "P", "scenes": [JUDGED, REFUSED]})
+        table = page.scenes({"version": "V", "scenes": [JUDGED, REFUSED]}, {"pictures": 64, "processor": "P"})
         self.assertIn("| `a_spot` | - | not exported | | | no such light |", table)
 
 
@@ -46,8 +47,11 @@ class Marks(unittest.TestCase):
     def test_the_page_has_all_marks_once(self):
         explained = {"ball": [{"edges": 2, "predicted": 0.0, "measured": 1e-4, "error": 1e-4}],
                      "lamp": {"segments": 1, "unblocked": 2, "blocked_too_late": 3, "rows_below": 4, "pixels": 5, "lit": 6,
-                              "share": 0.5}}
-        results = {"version": "V", "pictures": 64, "processor": "P", "scenes": [JUDGED], "explained": explained}
+                              "share": 0.5},
+                     "pixel": {"x": 7, "y": 8, "share": 0.1, "hits": 9.0, "predicted": 0.5,
+                               "direct": {"mean": 0.25, "error": 0.125}, "all": {"mean": 1, "error": 2}}}
+        found = {"version": "V", "scenes": [JUDGED]}
+        results = {"pictures": 64, "processor": "P", "renderers": {name: found for name in RENDERERS}, "explained": explained}
         with open(PAGE, encoding="utf-8") as file:
             text = file.read()
         with tempfile.NamedTemporaryFile("w+", encoding="utf-8", suffix=".md") as copy:
@@ -59,6 +63,8 @@ class Marks(unittest.TestCase):
         self.assertIn("`a_room`", written)
         self.assertIn("+0.010% ± 0.010%", written)
         self.assertIn("6 of the 5 pixels", written)
+        self.assertIn("of pixel (7, 8): 9.00 of 4096", written)
+        self.assertIn("0.250000 ± 0.125000 at 2 edges, and 1.00000 ± 2.00000 at 6.", written)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,71 @@
+"""Who renders the scenes of ./run conformance, and how."""
+
+import os
+import shutil
+import sys
+from dataclasses import dataclass, field
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.join(HERE, "..", "peers"))
+
+from peer import Peer
+
+MAX_EDGES = 6  # of the goldens
+# LuxCore's bidirectional engine limits its two walks and not the path. With so many vertices of each, paths that are cut
+# off are too dark to matter; its pictures are judged by a golden without limit.
+WALK = 64
+UNLIMITED = 1 << 20
+
+# Per picture. The first two need more, because path tracing hardly finds their light. In the others the pictures
+# have far less noise than those of the golden; then compare cannot exclude that they lack rare events.
+SAMPLES = {"ceiling_lamp": 512, "door_ajar": 512, "directional_over_plane": 4, "integrating_sphere": 4,
+           "integrating_sphere_lamp": 4}
+ORDINARY_SAMPLES = 64
+
+
+@dataclass(frozen=True)
+class Renderer:
+    """`integrator` is the renderer's word for it; `others` holds another one for scenes in which it finds no light.
+    `golden_edges` is the limit of paths of the golden, if it is not one of golden/renders/."""
+    name: str
+    title: str
+    peer: str
+    integrator: str
+    max_edges: int = MAX_EDGES
+    samples: dict = field(default_factory=lambda: SAMPLES)
+    others: dict = field(default_factory=dict)
+    golden_edges: int = None
+
+
+RENDERERS = {each.name: each for each in (
+    Renderer("mitsuba", "", "mitsuba", "path", others={"point_in_glass": "ptracer"}),
+    Renderer("luxcore", "PATHCPU", "luxcore", "PATHCPU", others={"point_in_glass": "LIGHTCPU"}),
+    Renderer("bidir", "BIDIRCPU", "luxcore", "BIDIRCPU", WALK, {}, golden_edges=UNLIMITED))}
+
+
+class Peers:
+    """The programs that render, started when first asked."""
+
+    def __init__(self, python, variant, llvm, folder):
+        environment = {"PYTHONDONTWRITEBYTECODE": "1", "DRJIT_LIBLLVM_PATH": llvm}
+        self.by_name = {"mitsuba": Peer("mitsuba", python, os.path.join(HERE, "mitsuba_pictures.py"), [variant], folder, environment),
+                        "luxcore": Peer("luxcore", python, os.path.join(HERE, "luxcore_pictures.py"), [], folder, environment)}
+
+    def version(self, renderer):
+        version = self.by_name[renderer.peer].ask(do="version")["version"]
+        return f"{version}, {renderer.title}" if renderer.title else version
+
+    def render(self, renderer, scene, path, seeds, folder):
+        """The files of the pictures, and what they were rendered with."""
+        samples = renderer.samples.get(scene, ORDINARY_SAMPLES)
+        integrator = renderer.others.get(scene, renderer.integrator)
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
+        answer = self.by_name[renderer.peer].ask(limit=3600, do="render", path=path, spp=samples, seeds=seeds,
+                                                 folder=folder, integrator=integrator, max_edges=renderer.max_edges)
+        other = "" if integrator == renderer.integrator else integrator
+        return answer["files"], {"samples": samples, "integrator": other}
+
+    def stop(self):
+        for peer in self.by_name.values():
+            peer.stop()
