@@ -22,13 +22,15 @@ from renderers import MAX_EDGES, RENDERERS, Peers
 
 # Of a golden without limit, which is made for LuxCore's bidirectional engine and is not one of golden/renders/.
 GOLDEN_SAMPLES = 1024
+FIRST_PICTURES = 16  # as check-renderer
 
 
 def options():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scenes", help="names, separated by commas [all in scenes/]")
     parser.add_argument("--renderers", default=",".join(RENDERERS), help=f"of {', '.join(RENDERERS)} [all]")
-    parser.add_argument("--pictures", type=int, default=64, help="of each scene, with different seeds [64]")
+    parser.add_argument("--pictures", type=int, default=64, help="at most, of each scene, with different seeds [64]")
+    parser.add_argument("--keep", action="store_true", help="take the pictures of an earlier run, if made in the same way")
     parser.add_argument("--variant", help="of Mitsuba [llvm_ad_rgb if there is an LLVM for it, or scalar_rgb]")
     parser.add_argument("--seed", type=int, default=1, help="of the first picture [1]")
     parser.add_argument("--page", help="write the tables into this page, between its marks: docs/results/conformance.md")
@@ -54,7 +56,7 @@ def main():
     variant = given.variant or ("llvm_ad_rgb" if llvm else "scalar_rgb")
     python = os.path.join(ROOT, "build", "peers", "venv", "bin", "python")
     peers = Peers(python, variant, llvm, folder)
-    results = {"processor": processor(), "pictures": given.pictures, "renderers": {}}
+    results = {"processor": processor(), "renderers": {}}
     try:
         exported = {name: export(name, program, folder) for name in names}
         for name in given.renderers.split(","):
@@ -116,14 +118,20 @@ def judge_renderer(renderer, exported, program, peers, folder, given):
 
 
 def judge(name, path, renderer, program, peers, folder, given):
-    """The verdict on the pictures of one scene."""
-    seeds = list(range(given.seed, given.seed + given.pictures))
-    files, made = peers.render(renderer, name, path, seeds, os.path.join(folder, name, renderer.name))
-    compared = subprocess.run([program, "compare", *files, golden_of(name, renderer, program, folder), "-q", "--json",
-                               "--report", os.path.join(folder, f"{name}_{renderer.name}.html")], capture_output=True, text=True)
-    if not compared.stdout:
-        raise Problem(f"{name}: {compared.stderr.strip()}")
-    verdict = json.loads(compared.stdout)
+    """The verdict on the pictures of one scene: on a few, and on more as long as these are too few to decide."""
+    golden = golden_of(name, renderer, program, folder)
+    count = min(FIRST_PICTURES, given.pictures)
+    while True:
+        seeds = range(given.seed, given.seed + count)
+        files, made = peers.render(renderer, name, path, seeds, os.path.join(folder, name, renderer.name), given.keep or count > FIRST_PICTURES)
+        compared = subprocess.run([program, "compare", *files, golden, "-q", "--json", "--report",
+                                   os.path.join(folder, f"{name}_{renderer.name}.html")], capture_output=True, text=True)
+        if not compared.stdout:
+            raise Problem(f"{name}: {compared.stderr.strip()}")
+        verdict = json.loads(compared.stdout)
+        if verdict["verdict"] != "INCONCLUSIVE" or count == given.pictures:
+            break
+        count = min(2 * count, given.pictures)
     kept = ("verdict", "reason", "p", "coverage", "detectable", "summary", "whole")
     return {"scene": name, **made, **{key: verdict[key] for key in kept}}
 

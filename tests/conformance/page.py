@@ -27,8 +27,8 @@ def between(text, name, new):
 
 
 def scenes(found, results):
-    lines = [f"{found['version']}, {results['pictures']} pictures of each scene, {results['processor']}:", "",
-             "| scene | samples per picture | verdict | ratio | 99% interval | smallest visible error |",
+    lines = [f"{found['version']}, {results['processor']}:", "",
+             "| scene | pictures, samples | verdict | ratio | 99% interval | smallest visible error |",
              "|---|---|---|---|---|---|"]
     for scene in found["scenes"]:
         if "whole" not in scene:
@@ -48,7 +48,7 @@ def row(scene):
         interval = f"{farthest['low']:.4f} to {farthest['high']:.4f}"
     known = [each for each in scene["detectable"] if each is not None]
     error = f"{max(known):.2%}" if len(known) == len(scene["detectable"]) else "unknown"
-    samples = f"{scene['samples']}" + (f", `{scene['integrator']}`" if scene["integrator"] else "")
+    samples = f"{scene['pictures']} of {scene['samples']}" + (f", `{scene['integrator']}`" if scene["integrator"] else "")
     return f"| `{scene['scene']}` | {samples} | {scene['verdict']} | {ratio} | {interval} | {error} |"
 
 

@@ -15,23 +15,23 @@ def channel(ratio, low, high):
     return {"ratio": ratio, "low": low, "high": high}
 
 
-JUDGED = {"scene": "a_room", "samples": 64, "integrator": "", "verdict": "PASS", "detectable": [0.001, 0.003, 0.002],
+JUDGED = {"scene": "a_room", "pictures": 32, "samples": 64, "integrator": "", "verdict": "PASS", "detectable": [0.001, 0.003, 0.002],
           "whole": [channel(1.0001, 1.0, 1.1), channel(0.998, 0.997, 0.999), channel(1.001, 1.0, 1.2)]}
 REFUSED = {"scene": "a_spot", "verdict": "not exported", "reason": "no such light"}
 
 
 class Rows(unittest.TestCase):
     def test_shows_the_channel_farthest_from_one_and_the_worst_detectable_error(self):
-        self.assertEqual(page.row(JUDGED), "| `a_room` | 64 | PASS | 0.9980 | 0.9970 to 0.9990 | 0.30% |")
+        self.assertEqual(page.row(JUDGED), "| `a_room` | 32 of 64 | PASS | 0.9980 | 0.9970 to 0.9990 | 0.30% |")
 
     def test_names_another_integrator(self):
-        self.assertIn("| 64, `ptracer` |", page.row({**JUDGED, "integrator": "ptracer"}))
+        self.assertIn("| 32 of 64, `ptracer` |", page.row({**JUDGED, "integrator": "ptracer"}))
 
     def test_an_error_that_is_not_detectable_in_one_channel_is_unknown(self):
         self.assertTrue(page.row({**JUDGED, "detectable": [0.001, None, 0.002]}).endswith("| unknown |"))
 
     def test_a_scene_that_is_not_exported_has_its_reason(self):
-        table = page.scenes({"version": "V", "scenes": [JUDGED, REFUSED]}, {"pictures": 64, "processor": "P"})
+        table = page.scenes({"version": "V", "scenes": [JUDGED, REFUSED]}, {"processor": "P"})
         self.assertIn("| `a_spot` | - | not exported | | | no such light |", table)
 
 
@@ -51,7 +51,7 @@ class Marks(unittest.TestCase):
                      "pixel": {"x": 7, "y": 8, "share": 0.1, "hits": 9.0, "predicted": 0.5,
                                "direct": {"mean": 0.25, "error": 0.125}, "all": {"mean": 1, "error": 2}}}
         found = {"version": "V", "scenes": [JUDGED]}
-        results = {"pictures": 64, "processor": "P", "renderers": {name: found for name in RENDERERS}, "explained": explained}
+        results = {"processor": "P", "renderers": {name: found for name in RENDERERS}, "explained": explained}
         with open(PAGE, encoding="utf-8") as file:
             text = file.read()
         with tempfile.NamedTemporaryFile("w+", encoding="utf-8", suffix=".md") as copy:

@@ -1,5 +1,6 @@
 """Who renders the scenes of ./run conformance, and how."""
 
+import json
 import os
 import shutil
 import sys
@@ -11,6 +12,7 @@ sys.path.append(os.path.join(HERE, "..", "peers"))
 from peer import Peer
 
 MAX_EDGES = 6  # of the goldens
+ORIGIN = "origin.json"
 # LuxCore's bidirectional engine limits its two walks and not the path. With so many vertices of each, paths that are cut
 # off are too dark to matter; its pictures are judged by a golden without limit.
 WALK = 64
@@ -55,17 +57,42 @@ class Peers:
         version = self.by_name[renderer.peer].ask(do="version")["version"]
         return f"{version}, {renderer.title}" if renderer.title else version
 
-    def render(self, renderer, scene, path, seeds, folder):
-        """The files of the pictures, and what they were rendered with."""
+    def render(self, renderer, scene, path, seeds, folder, keep):
+        """The files of the pictures, and what they were rendered with. `keep`: those that an earlier run has left in the folder
+        are taken if they were made from the same file in the same way."""
         samples = renderer.samples.get(scene, ORDINARY_SAMPLES)
         integrator = renderer.others.get(scene, renderer.integrator)
-        shutil.rmtree(folder, ignore_errors=True)
-        os.makedirs(folder)
-        answer = self.by_name[renderer.peer].ask(limit=3600, do="render", path=path, spp=samples, seeds=seeds,
-                                                 folder=folder, integrator=integrator, max_edges=renderer.max_edges)
+        request = {"path": path, "spp": samples, "folder": folder, "integrator": integrator, "max_edges": renderer.max_edges}
+        with open(path, encoding="utf-8") as file:
+            origin = {**request, "version": self.version(renderer), "scene": file.read()}
+        there = pictures_in(folder) if keep and origin_of(folder) == origin else {}
+        if not there:
+            shutil.rmtree(folder, ignore_errors=True)
+            os.makedirs(folder)
+            with open(os.path.join(folder, ORIGIN), "w", encoding="utf-8") as file:
+                json.dump(origin, file)
+        missing = [seed for seed in seeds if seed not in there]
+        if missing:
+            self.by_name[renderer.peer].ask(limit=3600, do="render", seeds=missing, **request)
+            there = pictures_in(folder)
         other = "" if integrator == renderer.integrator else integrator
-        return answer["files"], {"samples": samples, "integrator": other}
+        return [there[seed] for seed in seeds], {"pictures": len(seeds), "samples": samples, "integrator": other}
 
     def stop(self):
         for peer in self.by_name.values():
             peer.stop()
+
+
+def pictures_in(folder):
+    """Paths by seed."""
+    return {int(name.partition(".")[0]): os.path.join(folder, name)
+            for name in os.listdir(folder) if name.endswith((".exr", ".pfm"))}
+
+
+def origin_of(folder):
+    """What the pictures in the folder were made from; None if that is not known."""
+    try:
+        with open(os.path.join(folder, ORIGIN), encoding="utf-8") as file:
+            return json.load(file)
+    except (OSError, ValueError):
+        return None
