@@ -15,7 +15,8 @@ def channel(ratio, low, high):
     return {"ratio": ratio, "low": low, "high": high}
 
 
-JUDGED = {"scene": "a_room", "pictures": 32, "samples": 64, "integrator": "", "verdict": "PASS", "detectable": [0.001, 0.003, 0.002],
+JUDGED = {"scene": "a_room", "pictures": 32, "samples": 64, "integrator": "", "verdict": "PASS",
+          "detectable": [0.001, 0.003, 0.002],
           "whole": [channel(1.0001, 1.0, 1.1), channel(0.998, 0.997, 0.999), channel(1.001, 1.0, 1.2)]}
 REFUSED = {"scene": "a_spot", "verdict": "not exported", "reason": "no such light"}
 

@@ -41,7 +41,7 @@ class Renderer:
 
 RENDERERS = {each.name: each for each in (
     Renderer("mitsuba", "", "mitsuba", "path", others={"point_in_glass": "ptracer"}),
-    Renderer("luxcore", "PATHCPU", "luxcore", "PATHCPU", others={"point_in_glass": "LIGHTCPU"}),
+    Renderer("luxcore", "PATHCPU", "luxcore", "PATHCPU", samples={**SAMPLES, "door_ajar": 128}, others={"point_in_glass": "LIGHTCPU"}),
     Renderer("bidir", "BIDIRCPU", "luxcore", "BIDIRCPU", WALK, {}, golden_edges=UNLIMITED))}
 
 
@@ -50,8 +50,8 @@ class Peers:
 
     def __init__(self, python, variant, llvm, folder):
         environment = {"PYTHONDONTWRITEBYTECODE": "1", "DRJIT_LIBLLVM_PATH": llvm}
-        self.by_name = {"mitsuba": Peer("mitsuba", python, os.path.join(HERE, "mitsuba_pictures.py"), [variant], folder, environment),
-                        "luxcore": Peer("luxcore", python, os.path.join(HERE, "luxcore_pictures.py"), [], folder, environment)}
+        self.by_name = {name: Peer(name, python, os.path.join(HERE, f"{name}_pictures.py"), arguments, folder, environment)
+                        for name, arguments in (("mitsuba", [variant]), ("luxcore", []))}
 
     def version(self, renderer):
         version = self.by_name[renderer.peer].ask(do="version")["version"]
