@@ -5,6 +5,7 @@ import argparse
 import glob
 import json
 import os
+import statistics
 import subprocess
 import sys
 import time
@@ -14,7 +15,9 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.append(os.path.join(ROOT, "tests", "peers"))
 
 from contestants import libllvm
+from luxcore_settings import NEVER
 from machine import processor
+from plumbline import read_pfm
 from problem import Problem
 
 from page import write_page
@@ -62,13 +65,14 @@ def main():
         exported = {name: export(name, program, folder) for name in names}
         for name in given.renderers.split(","):
             results["renderers"][name] = judge_renderer(RENDERERS[name], exported, program, peers, folder, given)
+        roulettes = None if given.scenes else roulette(exported["camera_in_glass"]["path"], peers, folder)
     finally:
         peers.stop()
     with open(os.path.join(folder, "conformance.json"), "w", encoding="utf-8") as file:
         json.dump(results, file, indent=1)
     if given.page:
         if not given.scenes:
-            results["explained"] = explanations(python, folder, variant, llvm)
+            results["explained"] = {**explanations(python, folder, variant, llvm), "roulette": roulettes}
         write_page(given.page, results)
         if not given.scenes:
             draw_sheet(python, folder, os.path.join(ROOT, "docs", "images", "conformance.png"))
@@ -87,6 +91,22 @@ def measured(python, script, *arguments, environment=None):
 def explanations(python, folder, variant, llvm):
     """What explain.py measures."""
     return json.loads(measured(python, "explain.py", folder, variant, environment={"DRJIT_LIBLLVM_PATH": llvm}))
+
+
+def roulette(path, peers, folder, pictures=16, walk=8):
+    """The mean of the picture of LuxCore's bidirectional engine, by the depth at which its roulette begins."""
+    rows = []
+    for depth in (NEVER, 3, 1):
+        files = peers.by_name["luxcore"].ask(limit=3600, do="render", path=path, spp=64, seeds=list(range(pictures)),
+                                             folder=os.path.dirname(path), integrator="BIDIRCPU", max_edges=walk,
+                                             roulette=depth)["files"]
+        pixels = [read_pfm(file)[0::3] for file in files]
+        means = [sum(red) / len(red) for red in pixels]
+        for file in files:
+            os.remove(file)
+        rows.append({"depth": None if depth == NEVER else depth, "mean": statistics.mean(means),
+                     "error": statistics.stdev(means) / pictures**0.5})
+    return rows
 
 
 def draw_sheet(python, folder, path):
@@ -108,6 +128,8 @@ def judge_renderer(renderer, exported, program, peers, folder, given):
     """The verdicts on all scenes."""
     found = {"version": peers.version(renderer), "scenes": []}
     for name, scene in exported.items():
+        if renderer.scenes is not None and name not in renderer.scenes:
+            continue
         start = time.time()
         if "reason" in scene:
             result = {"scene": name, "verdict": "not exported", "reason": scene["reason"]}

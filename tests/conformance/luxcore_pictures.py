@@ -12,12 +12,11 @@ from worker import serve  # first: it takes care of standard output
 
 import pyluxcore
 
-from luxcore_settings import settings
+from luxcore_settings import NEVER, settings
 from write_luxcore import write_luxcore
 
 pyluxcore.Init(lambda message: None)
 POLL_SECONDS = 0.005
-FIRST_ROULETTE = 3  # where paths have no other limit
 
 
 def version():
@@ -29,17 +28,16 @@ def size_of(path):
     return (int(film.find(f"integer[@name='{name}']").get("value")) for name in ("width", "height"))
 
 
-def render(path, spp, seeds, folder, integrator, max_edges):
-    """One picture for each seed, as folder/SEED.pfm, of at least so many samples per pixel. `integrator`: LuxCore's engine;
-    BIDIRCPU has roulette, because its walks are long."""
+def render(path, spp, seeds, folder, integrator, max_edges, roulette=NEVER):
+    """One picture for each seed, as folder/SEED.pfm, of at least so many samples per pixel. `integrator`: LuxCore's
+    engine; `roulette`: the depth from which paths may end by it."""
     width, height = size_of(path)
     scene = pyluxcore.Scene()
     scene.Parse(pyluxcore.Properties(write_luxcore(path, spheres=True)))
     files = []
     for seed in seeds:
         properties = pyluxcore.Properties()
-        roulette = {"roulette": FIRST_ROULETTE} if integrator == "BIDIRCPU" else {}
-        chosen = settings(integrator, width, height, max_edges, os.cpu_count(), seed, **roulette)
+        chosen = settings(integrator, width, height, max_edges, os.cpu_count(), seed, roulette)
         for name, value in {**chosen, "batch.haltspp": spp}.items():
             properties.Set(pyluxcore.Property(name, value))
         files.append(os.path.join(folder, f"{seed}.pfm"))

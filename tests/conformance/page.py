@@ -13,6 +13,7 @@ def write_page(path, results):
         text = between(text, "ball", ball(results["explained"]["ball"]))
         text = between(text, "lamp", lamp(results["explained"]["lamp"]))
         text = between(text, "pixel", pixel(results["explained"]["pixel"]))
+        text = between(text, "roulette", roulette(results["explained"]["roulette"]))
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)
 
@@ -72,3 +73,10 @@ def pixel(found):
             f"{found['hits']:.2f} of 4096 samples are expected to show it, and their blue light is {found['predicted']:.6f}. "
             f"8 million samples of Mitsuba's in this pixel give {direct['mean']:.6f} ± {direct['error']:.6f} at 2 edges, and "
             f"{everything['mean']:.5f} ± {everything['error']:.5f} at 6.")
+
+
+def roulette(rows):
+    lines = ["| roulette from depth | red of the whole picture |", "|---|---|"]
+    for each in rows:
+        lines.append(f"| {each['depth'] or 'none'} | {each['mean']:.4f} ± {each['error']:.4f} |")
+    return "\n".join(lines)

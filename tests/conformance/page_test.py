@@ -50,7 +50,8 @@ class Marks(unittest.TestCase):
                      "lamp": {"segments": 1, "unblocked": 2, "blocked_too_late": 3, "rows_below": 4, "pixels": 5, "lit": 6,
                               "share": 0.5},
                      "pixel": {"x": 7, "y": 8, "share": 0.1, "hits": 9.0, "predicted": 0.5,
-                               "direct": {"mean": 0.25, "error": 0.125}, "all": {"mean": 1, "error": 2}}}
+                               "direct": {"mean": 0.25, "error": 0.125}, "all": {"mean": 1, "error": 2}},
+                     "roulette": [{"depth": None, "mean": 0.5, "error": 0.25}, {"depth": 3, "mean": 0.75, "error": 0.25}]}
         found = {"version": "V", "scenes": [JUDGED]}
         results = {"processor": "P", "renderers": {name: found for name in RENDERERS}, "explained": explained}
         with open(PAGE, encoding="utf-8") as file:
@@ -64,6 +65,7 @@ class Marks(unittest.TestCase):
         self.assertIn("`a_room`", written)
         self.assertIn("+0.010% ± 0.010%", written)
         self.assertIn("6 of the 5 pixels", written)
+        self.assertIn("| none | 0.5000 ± 0.2500 |\n| 3 | 0.7500 ± 0.2500 |", written)
         self.assertIn("of pixel (7, 8): 9.00 of 4096", written)
         self.assertIn("0.250000 ± 0.125000 at 2 edges, and 1.00000 ± 2.00000 at 6.", written)
 
