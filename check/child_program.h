@@ -34,8 +34,8 @@ ChildEnd run_child(const std::vector<std::string>& words, double limit_seconds,
                    const std::function<bool()>& stop = {});
 
 /// Kills all programs that run_child is running, with their process groups, and waits until they have
-/// ended, for a second at most; no other is started then. For a program that is about to be ended without
-/// its destructors. May be called from any thread.
+/// ended, for a second at most; no other is started then. For a program that is about to be ended
+/// without its destructors. May be called from any thread.
 void kill_children();
 
 } // namespace check

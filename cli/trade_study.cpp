@@ -22,8 +22,8 @@ std::optional<double> peak_bytes(const Settings& settings, const TradeView& view
     const images::TemporaryFolder folder;
     const std::string picture = (folder.path() / "picture.pfm").string();
     std::vector<std::string> arguments = arguments_of(settings, view);
-    for (const std::string& more : {std::string("-o"), picture, std::string("-s"),
-                                    std::string("1"), std::string("-q"), std::string("--json")})
+    for (const std::string& more : {std::string("-o"), picture, std::string("-s"), std::string("1"),
+                                    std::string("-q"), std::string("--json")})
         arguments.push_back(more);
     const auto output = output_of_self(arguments);
     if (!output) return std::nullopt;

@@ -26,7 +26,8 @@ void send_many(const Process& process, int signal)
     while (std::chrono::steady_clock::now() < end) process.send(signal);
 }
 
-/// Whether there is no such process, or one that has ended and whose parent has not asked for its status.
+/// Whether there is no such process, or one that has ended and whose parent has not asked for its
+/// status.
 bool has_ended(pid_t process)
 {
     std::ifstream stat("/proc/" + std::to_string(process) + "/stat");

@@ -12,7 +12,7 @@ from PIL import Image, ImageDraw
 mitsuba.set_variant("scalar_rgb")
 
 SHOWN = ("mitsuba", "luxcore")
-TITLES = ("golden", "Mitsuba", "LuxCore", "Mitsuba", "LuxCore")
+TITLES = ("golden", "Mitsuba", "LuxCore", "M - golden", "L - golden")
 SIDE, GAP, TEXT, COLUMNS = 64, 2, 12, 2
 LARGEST = 6  # standard errors
 

@@ -169,9 +169,9 @@ TEST(IndependenceWithoutNoise, IsNotDeniedToPicturesWithRareEvents)
 
 TEST(IndependenceWithoutNoise, IsNotDeniedToPicturesThatRoundingTellsApart)
 {
-    // The sky is the same constant in all pictures. A renderer that adds floats, and divides by a number of
-    // samples that is not the same in all pictures, moves all of the sky by the same few units of the last
-    // place; the first two happen to agree.
+    // The sky is the same constant in all pictures. A renderer that adds floats, and divides by a number
+    // of samples that is not the same in all pictures, moves all of the sky by the same few units of the
+    // last place; the first two happen to agree.
     std::mt19937_64 random(7);
     const auto draw = [&](double last_places) {
         Image image(64, 64);
