@@ -20,12 +20,14 @@ from machine import processor
 from plumbline import read_pfm
 from problem import Problem
 
+from lifted import lifted
 from page import write_page
 from renderers import MAX_EDGES, RENDERERS, Peers
 
-# Of a golden without limit, which is made for LuxCore's bidirectional engine and is not one of golden/renders/.
+# Of a golden that is not one of golden/renders/.
 GOLDEN_SAMPLES = 1024
 REQUIRED = 0.005  # of compare: a visible error of the whole picture
+LIFTED = 0.05
 FIRST_PICTURES = 16  # as check-renderer
 
 
@@ -65,14 +67,15 @@ def main():
         exported = {name: export(name, program, folder) for name in names}
         for name in given.renderers.split(","):
             results["renderers"][name] = judge_renderer(RENDERERS[name], exported, program, peers, folder, given)
-        roulettes = None if given.scenes else roulette(exported["camera_in_glass"]["path"], peers, folder)
+        measured_here = {} if given.scenes else {"roulette": roulette(exported["camera_in_glass"]["path"], peers),
+                                                 "lifted": lifted_lights(program, peers, folder, given)}
     finally:
         peers.stop()
     with open(os.path.join(folder, "conformance.json"), "w", encoding="utf-8") as file:
         json.dump(results, file, indent=1)
     if given.page:
         if not given.scenes:
-            results["explained"] = {**explanations(python, folder, variant, llvm), "roulette": roulettes}
+            results["explained"] = {**explanations(python, folder, variant, llvm), **measured_here}
         write_page(given.page, results)
         if not given.scenes:
             draw_sheet(python, folder, os.path.join(ROOT, "docs", "images", "conformance.png"))
@@ -93,7 +96,7 @@ def explanations(python, folder, variant, llvm):
     return json.loads(measured(python, "explain.py", folder, variant, environment={"DRJIT_LIBLLVM_PATH": llvm}))
 
 
-def roulette(path, peers, folder, pictures=16, walk=8):
+def roulette(path, peers, pictures=16, walk=8):
     """The mean of the picture of LuxCore's bidirectional engine, by the depth at which its roulette begins."""
     rows = []
     for depth in (NEVER, 3, 1):
@@ -109,16 +112,34 @@ def roulette(path, peers, folder, pictures=16, walk=8):
     return rows
 
 
+def lifted_lights(program, peers, folder, given):
+    """The verdicts on flush_lights with its lights at a distance from the panel, beside a golden of our own."""
+    place = os.path.join(folder, "lifted")
+    os.makedirs(place, exist_ok=True)
+    with open(os.path.join(ROOT, "scenes", "flush_lights.dae"), encoding="utf-8") as file:
+        text = lifted(file.read(), LIFTED)
+    scene = os.path.join(place, "lifted.dae")
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(text)
+    exported = export("lifted", program, folder, scene)["path"]
+    rows = []
+    for name in ("mitsuba", "luxcore"):
+        found = judge("lifted", exported, RENDERERS[name], program, peers, folder, given, golden_of(scene, MAX_EDGES, program, folder))
+        rows.append({**found, "renderer": name, "distance": LIFTED})
+    return rows
+
+
 def draw_sheet(python, folder, path):
     measured(python, "sheet.py", folder, os.path.join(ROOT, "golden", "renders"), path)
 
 
-def export(name, program, folder):
-    """The scene for Mitsuba, which LuxCore's is made from: its path, or why there is none."""
+def export(name, program, folder, scene=None):
+    """The scene for Mitsuba, which LuxCore's is made from: its path, or why there is none. `scene`: if it is none of ours."""
+    scene = scene or os.path.join(ROOT, "scenes", name + ".dae")
     xml = os.path.join(folder, name, name + ".xml")
     os.makedirs(os.path.dirname(xml), exist_ok=True)
-    ran = subprocess.run([program, "export", os.path.join(ROOT, "scenes", name + ".dae"), "-q", "-o", xml,
-                          "--size", "64x64", "--max-edges", str(MAX_EDGES)], capture_output=True, text=True)
+    ran = subprocess.run([program, "export", scene, "-q", "-o", xml, "--size", "64x64",
+                          "--max-edges", str(MAX_EDGES)], capture_output=True, text=True)
     if ran.returncode != 0:
         return {"reason": ran.stderr.strip().removeprefix("plumbline: ").removeprefix(name + ": ")}
     return {"path": xml}
@@ -134,25 +155,23 @@ def judge_renderer(renderer, exported, program, peers, folder, given):
         if "reason" in scene:
             result = {"scene": name, "verdict": "not exported", "reason": scene["reason"]}
         else:
-            result = judge(name, scene["path"], renderer, program, peers, folder, given)
+            golden = os.path.join(ROOT, "golden", "renders", name + ".exr")
+            if renderer.golden_edges is not None:
+                golden = golden_of(os.path.join(ROOT, "scenes", name + ".dae"), renderer.golden_edges, program, folder)
+            result = judge(name, scene["path"], renderer, program, peers, folder, given, golden)
         found["scenes"].append(result)
         print(f"{renderer.name}: {name}: {result['verdict']}: {result['reason']} ({time.time() - start:.0f} s)", flush=True)
     return found
 
 
-def judge(name, path, renderer, program, peers, folder, given):
+def judge(name, path, renderer, program, peers, folder, given, golden):
     """The verdict on the pictures of one scene: on a few, and on more as long as these are too few to decide."""
-    golden = golden_of(name, renderer, program, folder)
     count = min(FIRST_PICTURES, given.pictures)
     while True:
         seeds = range(given.seed, given.seed + count)
         files, made = peers.render(renderer, name, path, seeds, os.path.join(folder, name, renderer.name),
                                    given.keep or count > FIRST_PICTURES)
-        compared = subprocess.run([program, "compare", *files, golden, "-q", "--json", "--report",
-                                   os.path.join(folder, f"{name}_{renderer.name}.html")], capture_output=True, text=True)
-        if not compared.stdout:
-            raise Problem(f"{name}: {compared.stderr.strip()}")
-        verdict = json.loads(compared.stdout)
+        verdict = compare(program, files, golden, "--report", os.path.join(folder, f"{name}_{renderer.name}.html"))
         # Where the golden's own noise hides more than compare requires, more pictures change nothing.
         hidden = max((each for each in verdict["golden_limit"] if each is not None), default=0.0)
         if verdict["verdict"] != "INCONCLUSIVE" or count == given.pictures or hidden > REQUIRED:
@@ -162,14 +181,21 @@ def judge(name, path, renderer, program, peers, folder, given):
     return {"scene": name, **made, **{key: verdict[key] for key in kept}}
 
 
-def golden_of(name, renderer, program, folder):
-    """The path of the golden. One with another limit of paths is made here, or taken from an earlier run."""
-    if renderer.golden_edges is None:
-        return os.path.join(ROOT, "golden", "renders", name + ".exr")
+def compare(program, files, golden, *more):
+    """What `plumbline compare` says of these pictures."""
+    ran = subprocess.run([program, "compare", *files, golden, "-q", "--json", *more], capture_output=True, text=True)
+    if not ran.stdout:
+        raise Problem(f"{os.path.basename(golden)}: {ran.stderr.strip()}")
+    return json.loads(ran.stdout)
+
+
+def golden_of(scene, max_edges, program, folder):
+    """The path of a golden that is not one of golden/renders/. It is made here, or taken from an earlier run."""
     made = os.path.join(folder, "goldens")
     os.makedirs(made, exist_ok=True)
-    ran = subprocess.run([program, "golden", os.path.join(ROOT, "scenes", name + ".dae"), "--folder", made, "-q",
-                          "--max-edges", str(renderer.golden_edges), "-s", str(GOLDEN_SAMPLES)], capture_output=True, text=True)
+    ran = subprocess.run([program, "golden", scene, "--folder", made, "-q", "--max-edges", str(max_edges),
+                          "-s", str(GOLDEN_SAMPLES)], capture_output=True, text=True)
+    name = os.path.splitext(os.path.basename(scene))[0]
     if ran.returncode != 0:
         raise Problem(f"{name}: {ran.stderr.strip()}")
     return os.path.join(made, name + ".exr")

@@ -95,7 +95,7 @@ def fresnel(cosine, ior):
     return np.where((1 - cosine**2) * ior**2 >= 1, 1, (parallel**2 + perpendicular**2) / 2)
 
 
-def edge_pixel(x=21, y=2, grid=4000, ior=1.5):
+def edge_pixel(x=21, y=2, grid=2000, ior=1.5):
     """The pixel of camera_in_glass that the outline of the luminous sphere hardly enters: the share of its area that shows
     the sphere, the light that is due to it, and what many samples of Mitsuba's say. Numbers: scenes/camera_in_glass.dae."""
     inside = (np.arange(grid) + 0.5) / grid

@@ -4,16 +4,14 @@ MARK = "<!-- conformance: {} -->"
 
 
 def write_page(path, results):
-    """Replaces what is between the marks of the page. Without explanations, theirs stay as they are."""
+    """Replaces what is between the marks of the page. What was not measured stays as it is."""
     with open(path, encoding="utf-8") as file:
         text = file.read()
     for name, found in results["renderers"].items():
         text = between(text, name, scenes(found, results))
-    if "explained" in results:
-        text = between(text, "ball", ball(results["explained"]["ball"]))
-        text = between(text, "lamp", lamp(results["explained"]["lamp"]))
-        text = between(text, "pixel", pixel(results["explained"]["pixel"]))
-        text = between(text, "roulette", roulette(results["explained"]["roulette"]))
+    for name, write in EXPLAINED.items():
+        if name in results.get("explained", {}):
+            text = between(text, name, write(results["explained"][name]))
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)
 
@@ -80,3 +78,13 @@ def roulette(rows):
     for each in rows:
         lines.append(f"| {each['depth'] or 'none'} | {each['mean']:.4f} ± {each['error']:.4f} |")
     return "\n".join(lines)
+
+
+def lifted(rows):
+    lines = ["| renderer | lights moved by | pictures, samples | verdict | ratio | 99% interval | smallest visible error |",
+             "|---|---|---|---|---|---|---|"]
+    return "\n".join(lines + [row({**each, "scene": each["renderer"]}).replace("` |", f"` | {each['distance']} |", 1)
+                              for each in rows])
+
+
+EXPLAINED = {"ball": ball, "lamp": lamp, "pixel": pixel, "roulette": roulette, "lifted": lifted}

@@ -4,6 +4,7 @@ import os
 import tempfile
 import unittest
 
+import lifted
 import page
 from renderers import RENDERERS
 
@@ -36,6 +37,14 @@ class Rows(unittest.TestCase):
         self.assertIn("| `a_spot` | - | not exported | | | no such light |", table)
 
 
+class Lifted(unittest.TestCase):
+    def test_moves_all_three_lights_of_the_scene(self):
+        with open(os.path.join(HERE, "..", "..", "scenes", "flush_lights.dae"), encoding="utf-8") as file:
+            text = lifted.lifted(file.read(), 0.5)
+        for node in ("-0.1 0.025 0.5", "-1 0.3 0.5", "0.1 0.05 1.0"):
+            self.assertIn(f"<translate>{node}</translate>", text)
+
+
 class Marks(unittest.TestCase):
     def test_only_the_text_between_the_marks_changes(self):
         text = "a\n<!-- conformance: begin x -->\nold\n<!-- conformance: end x -->\nb\n"
@@ -51,6 +60,7 @@ class Marks(unittest.TestCase):
                               "share": 0.5},
                      "pixel": {"x": 7, "y": 8, "share": 0.1, "hits": 9.0, "predicted": 0.5,
                                "direct": {"mean": 0.25, "error": 0.125}, "all": {"mean": 1, "error": 2}},
+                     "lifted": [{**JUDGED, "renderer": "one", "distance": 0.5}],
                      "roulette": [{"depth": None, "mean": 0.5, "error": 0.25}, {"depth": 3, "mean": 0.75, "error": 0.25}]}
         found = {"version": "V", "scenes": [JUDGED]}
         results = {"processor": "P", "renderers": {name: found for name in RENDERERS}, "explained": explained}
@@ -66,6 +76,7 @@ class Marks(unittest.TestCase):
         self.assertIn("+0.010% ± 0.010%", written)
         self.assertIn("6 of the 5 pixels", written)
         self.assertIn("| none | 0.5000 ± 0.2500 |\n| 3 | 0.7500 ± 0.2500 |", written)
+        self.assertIn("| `one` | 0.5 | 32 of 64 | PASS | 0.9980 |", written)
         self.assertIn("of pixel (7, 8): 9.00 of 4096", written)
         self.assertIn("0.250000 ± 0.125000 at 2 edges, and 1.00000 ± 2.00000 at 6.", written)
 
