@@ -12,8 +12,11 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 
 extern char** environ; // NOLINT(readability-redundant-declaration): of POSIX, in no header by its rules
 
@@ -107,6 +110,43 @@ pid_t start(const std::vector<std::string>& words, int output)
     return process;
 }
 
+/// The process groups of the programs that are running.
+struct Children {
+    std::mutex mutex;
+    std::set<pid_t> groups;
+    bool are_over = false; // no other is started
+};
+
+/// Never destroyed: another thread may kill them while this program ends.
+Children& all_children()
+{
+    static auto* const children = new Children;
+    return *children;
+}
+
+/// A started program: among all_children() as long as it runs.
+class RunningChild {
+public:
+    RunningChild(const std::vector<std::string>& words, int output)
+    {
+        const std::lock_guard lock(all_children().mutex);
+        if (all_children().are_over) throw std::runtime_error(words[0] + ": interrupted");
+        process_ = start(words, output);
+        all_children().groups.insert(process_);
+    }
+    RunningChild(const RunningChild&) = delete;
+    RunningChild& operator=(const RunningChild&) = delete;
+    ~RunningChild()
+    {
+        const std::lock_guard lock(all_children().mutex);
+        all_children().groups.erase(process_);
+    }
+    [[nodiscard]] pid_t process() const { return process_; }
+
+private:
+    pid_t process_;
+};
+
 /// Reads some bytes, and keeps the end of all. Returns how many: 0 at the end of the output, -1 if there
 /// are none at present.
 ssize_t read_some(int file, std::string& kept)
@@ -152,7 +192,8 @@ ChildEnd run_child(const std::vector<std::string>& words, double limit_seconds,
     const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
 
     Pipe output;
-    const pid_t process = start(words, output.ends[1]);
+    const RunningChild child(words, output.ends[1]);
+    const pid_t process = child.process();
     output.close_write();
     fcntl(output.ends[0], F_SETFL, O_NONBLOCK);
 
@@ -178,6 +219,18 @@ ChildEnd run_child(const std::vector<std::string>& words, double limit_seconds,
         end.code = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
     }
     return end;
+}
+
+void kill_children()
+{
+    const std::lock_guard lock(all_children().mutex);
+    all_children().are_over = true;
+    for (const pid_t group : all_children().groups) {
+        kill(-group, SIGKILL);
+        // The group is there until the last of its processes has ended and run_child has asked for it.
+        for (int i = 0; i < 1000 && kill(-group, 0) == 0; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
 }
 
 } // namespace check

@@ -29,8 +29,13 @@ std::string describe(const ChildEnd& end);
 /// Runs the program words[0] with the arguments words[1...], without standard input. After
 /// `limit_seconds` seconds, or when `stop` returns true (asked about fifty times a second), it is
 /// killed, and so is every process that it has started in its process group; `stop` counts as a
-/// time-out. Throws std::runtime_error if the program cannot be started.
+/// time-out. Throws std::runtime_error if the program cannot be started, or after kill_children().
 ChildEnd run_child(const std::vector<std::string>& words, double limit_seconds,
                    const std::function<bool()>& stop = {});
+
+/// Kills all programs that run_child is running, with their process groups, and waits until they have
+/// ended, for a second at most; no other is started then. For a program that is about to be ended
+/// without its destructors. May be called from any thread.
+void kill_children();
 
 } // namespace check

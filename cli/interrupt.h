@@ -4,8 +4,9 @@
 
 namespace cli {
 
-/// From now on Ctrl-C (SIGINT) and SIGTERM request an orderly end; a second one ends the program at
-/// once.
+/// From now on Ctrl-C (SIGINT) and SIGTERM request an orderly end. A second one kills the programs that
+/// this one has started (check/child_program.h), removes its temporary folders, and then ends it at
+/// once, after five seconds in any case. To be called once.
 void catch_interrupts();
 
 /// Whether an orderly end was requested. May be called from any thread.

@@ -5,12 +5,10 @@
 #include "cli/scene_input.h"
 #include "cli/trade_needs.h"
 #include "cuda/scene/scene_arrays.h"
+#include "images/temporary_folder.h"
 
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -18,20 +16,16 @@ namespace cli {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// The peak memory of a process that renders one sample per pixel.
 std::optional<double> peak_bytes(const Settings& settings, const TradeView& view)
 {
-    const fs::path picture =
-        fs::temp_directory_path() / ("plumbline-trade-" + std::to_string(getpid()) + ".pfm");
+    const images::TemporaryFolder folder;
+    const std::string picture = (folder.path() / "picture.pfm").string();
     std::vector<std::string> arguments = arguments_of(settings, view);
-    for (const std::string& more : {std::string("-o"), picture.string(), std::string("-s"),
-                                    std::string("1"), std::string("-q"), std::string("--json")})
+    for (const std::string& more : {std::string("-o"), picture, std::string("-s"), std::string("1"),
+                                    std::string("-q"), std::string("--json")})
         arguments.push_back(more);
     const auto output = output_of_self(arguments);
-    std::error_code ignored;
-    fs::remove(picture, ignored);
     if (!output) return std::nullopt;
     const auto json = nlohmann::json::parse(*output, nullptr, false);
     return json.is_object() && json.contains("peak_rss_bytes")

@@ -51,7 +51,9 @@ Closeness closeness_beside(const images::Image& a, const images::Image& b, const
         const double between = std::abs(sum_of(a.pixels[i]) - sum_of(b.pixels[i]));
         const double from_a = std::abs(sum_of(a.pixels[i]) - sum_of(third.pixels[i]));
         const double from_b = std::abs(sum_of(b.pixels[i]) - sum_of(third.pixels[i]));
-        if (between == 0.0 && from_a == 0.0) continue;
+        // A rounding error is the same in all pixels of one value, so it tells nothing of the noise.
+        constexpr double rounding = 1e-5; // of sums of floats, relative
+        if (std::max(between, from_a) <= rounding * std::abs(sum_of(third.pixels[i]))) continue;
         ++result.sites;
         result.close += times_closer * between < std::min(from_a, from_b);
         constexpr std::size_t first_look = 64; // most pairs end here

@@ -2,12 +2,7 @@
 
 // A folder for files that only this run needs.
 
-#include <cerrno>
-#include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
-#include <string>
-#include <system_error>
 
 namespace images {
 
@@ -15,25 +10,18 @@ namespace images {
 /// constructor throws std::runtime_error, with the reason, if there can be none.
 class TemporaryFolder {
 public:
-    TemporaryFolder()
-    {
-        std::string name = (std::filesystem::temp_directory_path() / "plumbline-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-            throw std::runtime_error(
-                name + ": a temporary folder cannot be made: " + std::generic_category().message(errno));
-        path_ = name;
-    }
+    TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
+    ~TemporaryFolder();
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
 private:
     std::filesystem::path path_;
 };
+
+/// Removes all temporary folders of this process, for a program that is about to be ended without its
+/// destructors. May be called from any thread.
+void remove_temporary_folders();
 
 } // namespace images

@@ -1,5 +1,5 @@
 // After Ctrl-C or SIGTERM the finished batches are kept. Resuming gives the same picture as a render
-// without interruption.
+// without interruption. A second signal ends the program at once, and what it has started.
 
 #include "images/exr.h"
 #include "tests/cli/run_program.h"
@@ -10,6 +10,32 @@
 namespace {
 
 using namespace cli_test;
+
+/// Sends the second signal as soon as the first has reached the process: two that wait are one.
+void send_twice(const Process& process, int signal)
+{
+    process.send(signal);
+    EXPECT_TRUE(eventually([&] { return !process.has("ShdPnd:", signal); }));
+    process.send(signal);
+}
+
+/// Sends the signal again and again for 20 ms.
+void send_many(const Process& process, int signal)
+{
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
+    while (std::chrono::steady_clock::now() < end) process.send(signal);
+}
+
+/// Whether there is no such process, or one that has ended and whose parent has not asked for its
+/// status.
+bool has_ended(pid_t process)
+{
+    std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+    std::string number;
+    std::string name;
+    std::string state;
+    return !(stat >> number >> name >> state) || state == "Z";
+}
 
 class Interrupt : public testing::TestWithParam<int> {
 protected:
@@ -110,11 +136,45 @@ TEST_P(Interrupt, TwiceEndsAtOnce)
     // Wait until the tile has begun: a fifth of a second of CPU time.
     const long long before = process.used();
     ASSERT_TRUE(eventually([&] { return process.used() >= before + sysconf(_SC_CLK_TCK) / 5; }));
-    process.send(GetParam());
-    ASSERT_TRUE(eventually([&] { return !process.catches(GetParam()); }));
-    process.send(GetParam());
+    send_twice(process, GetParam());
     EXPECT_EQ(process.finish().status, -GetParam());
     EXPECT_EQ(folder.entries(), 0u);
+}
+
+// The other program has started one itself. The first signal ends both within a millisecond; the second
+// comes before that, or the program has then ended in order.
+TEST_P(Interrupt, TwiceKillsTheCheckedProgramAndRemovesTheTemporaryFolder)
+{
+    const std::string started = (folder / "started").string();
+    const std::string temporary = (folder / "temporary").string();
+    const Arguments sleeper = {"--", "sh", "-c",
+                               "sleep 1000 & echo $$ $! >" + started + ".new; mv " + started + ".new " +
+                                   started + "; wait"};
+    for (const Arguments& check :
+         {Arguments{"check-renderer", "--suite", PLUMBLINE_SOURCE_DIR, "--scenes", "point_over_plane"} +
+              sleeper + Arguments{"{scene}", "{out}"},
+          Arguments{"check-builder", "--keep", (folder / "keep.npy").string()} + sleeper +
+              Arguments{"{primitives}", "{tree}"}}) {
+        std::filesystem::create_directory(temporary);
+        Process process(Arguments{"TMPDIR=" + temporary, PLUMBLINE_PROGRAM} + check,
+                        {.program = "/usr/bin/env"});
+        ASSERT_TRUE(eventually([&] { return std::filesystem::exists(started); })) << check[0];
+        std::ifstream ids(started);
+        pid_t child = 0;
+        pid_t grandchild = 0;
+        ids >> child >> grandchild;
+        EXPECT_FALSE(std::filesystem::is_empty(temporary)) << check[0];
+        send_many(process, GetParam());
+        const int status = process.finish().status;
+        EXPECT_TRUE(status == -GetParam() || status == 130) << check[0] << status;
+        EXPECT_TRUE(std::filesystem::is_empty(temporary)) << check[0];
+        for (const pid_t id : {child, grandchild}) {
+            EXPECT_TRUE(eventually([&] { return has_ended(id); })) << check[0];
+            kill(id, SIGKILL); // nothing is left behind by a test that fails
+        }
+        std::filesystem::remove_all(temporary);
+        std::filesystem::remove(started);
+    }
 }
 
 // With --watch all files are rewritten while rendering, also those of the strategies.

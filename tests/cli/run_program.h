@@ -108,12 +108,15 @@ public:
 
     void send(int signal) const { kill(pid_, signal); }
 
-    /// Whether the process has installed a handler for `signal` (Linux: proc(5), SigCgt).
-    [[nodiscard]] bool catches(int signal) const
+    /// Whether the process has installed a handler for `signal`.
+    [[nodiscard]] bool catches(int signal) const { return has("SigCgt:", signal); }
+
+    /// Whether `signal` is in this set of signals of the process (Linux: proc(5), status).
+    [[nodiscard]] bool has(const std::string& set, int signal) const
     {
         std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
         for (std::string word; status >> word;)
-            if (word == "SigCgt:" && status >> word)
+            if (word == set && status >> word)
                 return (std::stoull(word, nullptr, 16) >> (signal - 1) & 1) != 0;
         return false;
     }

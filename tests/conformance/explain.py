@@ -22,13 +22,15 @@ SHADOW_EPSILON = 10 * RAY_EPSILON
 EDGES = (2, 3, 4, 6, 8, 20)
 
 
-def xml_of(name, max_depth):
-    """The scene with another limit of paths, without roulette."""
+def xml_of(name, max_depth, crop=None):
+    """The scene with another limit of paths, without roulette; crop: the one pixel (x, y) of the picture to render."""
     path = os.path.join(sys.argv[1], name, name + ".xml")
     root = ElementTree.parse(path).getroot()
     integrator = root.find("integrator")
     integrator.find("integer[@name='max_depth']").set("value", str(max_depth))
     integrator.find("integer[@name='rr_depth']").set("value", "10000")
+    for key, value in zip(("crop_offset_x", "crop_offset_y", "crop_width", "crop_height"), (*crop, 1, 1) if crop else ()):
+        ElementTree.SubElement(root.find("sensor/film"), "integer", name=key, value=str(value))
     changed = path.replace(".xml", "_changed.xml")
     ElementTree.ElementTree(root).write(changed)
     return changed
@@ -42,13 +44,12 @@ def unit(v):
     return v / np.linalg.norm(v, axis=-1, keepdims=True)
 
 
-def camera_rays(width, strata):
-    """Origin and unit directions of rays through a grid of strata x strata points in every pixel."""
-    root = ElementTree.parse(xml_of("camera_in_glass_furnace", 2)).getroot()
+def camera_rays(name, film):
+    """Origin and unit directions of rays through all pairs of these coordinates, each 1 to -1 over the square picture."""
+    root = ElementTree.parse(xml_of(name, 2)).getroot()
     to_world = np.array(root.find(".//sensor/transform/matrix").get("value").split(), float).reshape(4, 4)
     tangent = np.tan(np.radians(float(root.find(".//sensor/float[@name='fov']").get("value"))) / 2)
-    film = 1 - 2 * (np.arange(width * strata) + 0.5) / (width * strata)
-    x, y = np.meshgrid(film * tangent, film * tangent)
+    x, y = np.meshgrid(film[0] * tangent, film[1] * tangent)
     local = np.stack([x, y, np.ones_like(x)], -1)
     directions = local @ to_world[:3, :3].T
     return to_world[:3, 3], unit(directions)
@@ -57,7 +58,8 @@ def camera_rays(width, strata):
 def light_in_ball(max_edges, epsilon, ior=1.5, strata=24):
     """The mean radiance of the picture in multiples of n^2 Le, for a camera in the unit ball, if the origins of
     reflected rays move inwards by (1 + max |p|) epsilon. With 0 it is the closed form: 1 - F^(max_edges - 1)."""
-    origin, d = camera_rays(64, strata)
+    film = 1 - 2 * (np.arange(64 * strata) + 0.5) / (64 * strata)
+    origin, d = camera_rays("camera_in_glass_furnace", (film, film))
     origin = np.broadcast_to(origin, d.shape)
     weight, light = np.ones(d.shape[:2]), np.zeros(d.shape[:2])
     for _ in range(max_edges - 1):
@@ -65,12 +67,9 @@ def light_in_ball(max_edges, epsilon, ior=1.5, strata=24):
         t = -b + np.sqrt(b * b - (origin * origin).sum(-1) + 1)
         p = unit(origin + t[..., None] * d)
         cosine = (p * d).sum(-1)
-        outside = np.sqrt(np.maximum(0, 1 - (1 - cosine**2) * ior**2))
-        parallel = (ior * outside - cosine) / (ior * outside + cosine)
-        perpendicular = (ior * cosine - outside) / (ior * cosine + outside)
-        fresnel = np.where((1 - cosine**2) * ior**2 >= 1, 1, (parallel**2 + perpendicular**2) / 2)
-        light = light + weight * (1 - fresnel)
-        weight = weight * fresnel
+        reflected = fresnel(cosine, ior)
+        light = light + weight * (1 - reflected)
+        weight = weight * reflected
         d = unit(d - 2 * cosine[..., None] * p)
         origin = p * (1 - (1 + abs(p).max(-1)) * epsilon)[..., None]
     return light.mean()
@@ -86,6 +85,40 @@ def ball():
         rows.append({"edges": edges, "predicted": light_in_ball(edges, RAY_EPSILON) / closed_form - 1,
                      "measured": ratios.mean() - 1, "error": ratios.std(ddof=1) / 4})
     return rows
+
+
+def fresnel(cosine, ior):
+    """Of a ray inside glass, which meets the surface at this cosine."""
+    outside = np.sqrt(np.maximum(0, 1 - (1 - cosine**2) * ior**2))
+    parallel = (ior * outside - cosine) / (ior * outside + cosine)
+    perpendicular = (ior * cosine - outside) / (ior * cosine + outside)
+    return np.where((1 - cosine**2) * ior**2 >= 1, 1, (parallel**2 + perpendicular**2) / 2)
+
+
+def edge_pixel(x=21, y=2, grid=2000, ior=1.5):
+    """The pixel of camera_in_glass that the outline of the luminous sphere hardly enters: the share of its area that shows
+    the sphere, the light that is due to it, and what many samples of Mitsuba's say. Numbers: scenes/camera_in_glass.dae."""
+    inside = (np.arange(grid) + 0.5) / grid
+    eye, d = camera_rays("camera_in_glass", (1 - 2 * (x + inside) / 64, 1 - 2 * (y + inside) / 64))
+    ball, sphere, radius = np.array([2.25, -2.36, 2.41]), np.array([-0.1, 0.4, 0.8]), 0.4
+    origin = eye - ball
+    b = (origin * d).sum(-1)
+    p = origin + (-b + np.sqrt(b * b - (origin * origin).sum() + 0.25**2))[..., None] * d
+    normal = unit(p)
+    cosine = (normal * d).sum(-1)
+    d = ior * d + (np.sqrt(1 - ior**2 * (1 - cosine**2)) - ior * cosine)[..., None] * normal
+    to_sphere = sphere - ball - p
+    along = (to_sphere * d).sum(-1)
+    seen = (along > 0) & ((to_sphere**2).sum(-1) - along**2 < radius**2)
+    weight = 1 - fresnel(cosine, ior)
+
+    def measured(edges):
+        scene = mitsuba.load_file(xml_of("camera_in_glass", edges, (x, y)))
+        blue = np.array([np.array(mitsuba.render(scene, spp=1 << 20, seed=seed))[0, 0, 2] for seed in range(1, 9)])
+        return {"mean": float(blue.mean()), "error": float(blue.std(ddof=1)) / len(blue) ** 0.5}
+
+    return {"x": x, "y": y, "share": seen.mean(), "hits": 4096 * (seen * weight).mean(),
+            "predicted": ior**2 * 2 * (seen * weight).mean(), "direct": measured(2), "all": measured(6)}
 
 
 def ply_triangles(path):
@@ -133,5 +166,5 @@ def lamp():
             "share": float(lower.sum() / light.sum())}
 
 
-print(json.dumps({"ball": ball(), "lamp": lamp()}), file=RESULTS, flush=True)
+print(json.dumps({"ball": ball(), "lamp": lamp(), "pixel": edge_pixel()}), file=RESULTS, flush=True)
 os._exit(0)  # the destructors of some libraries crash at the end of the interpreter

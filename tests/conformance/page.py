@@ -4,13 +4,14 @@ MARK = "<!-- conformance: {} -->"
 
 
 def write_page(path, results):
-    """Replaces what is between the marks of the page. Without explanations, theirs stay as they are."""
+    """Replaces what is between the marks of the page. What was not measured stays as it is."""
     with open(path, encoding="utf-8") as file:
         text = file.read()
-    text = between(text, "scenes", scenes(results))
-    if "explained" in results:
-        text = between(text, "ball", ball(results["explained"]["ball"]))
-        text = between(text, "lamp", lamp(results["explained"]["lamp"]))
+    for name, found in results["renderers"].items():
+        text = between(text, name, scenes(found, results))
+    for name, write in EXPLAINED.items():
+        if name in results.get("explained", {}):
+            text = between(text, name, write(results["explained"][name]))
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)
 
@@ -24,11 +25,11 @@ def between(text, name, new):
     return head + begin + "\n" + new + "\n" + end + rest.partition(end)[2]
 
 
-def scenes(results):
-    lines = [f"{results['version']}, {results['pictures']} pictures of each scene, {results['processor']}:", "",
-             "| scene | samples per picture | verdict | ratio | 99% interval | smallest visible error |",
+def scenes(found, results):
+    lines = [f"{found['version']}, {results['processor']}:", "",
+             "| scene | pictures, samples | verdict | ratio | 99% interval | smallest visible error |",
              "|---|---|---|---|---|---|"]
-    for scene in results["scenes"]:
+    for scene in found["scenes"]:
         if "whole" not in scene:
             lines.append(f"| `{scene['scene']}` | - | {scene['verdict']} | | | {scene['reason']} |")
             continue
@@ -46,7 +47,7 @@ def row(scene):
         interval = f"{farthest['low']:.4f} to {farthest['high']:.4f}"
     known = [each for each in scene["detectable"] if each is not None]
     error = f"{max(known):.2%}" if len(known) == len(scene["detectable"]) else "unknown"
-    samples = f"{scene['samples']}" + ("" if scene["integrator"] == "path" else f", `{scene['integrator']}`")
+    samples = f"{scene['pictures']} of {scene['samples']}" + (f", `{scene['integrator']}`" if scene["integrator"] else "")
     return f"| `{scene['scene']}` | {samples} | {scene['verdict']} | {ratio} | {interval} | {error} |"
 
 
@@ -62,3 +63,28 @@ def lamp(found):
             f"{found['blocked_too_late']} meet it only in their last 0.089%. In Mitsuba's picture of paths of at most 2 edges, "
             f"{found['lit']} of the {found['pixels']} pixels below row {found['rows_below']}, all of which show walls and "
             f"floor, are not black. Their light is {found['share']:.3%} of the whole picture's.")
+
+
+def pixel(found):
+    direct, everything = found["direct"], found["all"]
+    return (f"By the closed form the sphere fills {found['share']:.3%} of the area of pixel ({found['x']}, {found['y']}): "
+            f"{found['hits']:.2f} of 4096 samples are expected to show it, and their blue light is {found['predicted']:.6f}. "
+            f"8 million samples of Mitsuba's in this pixel give {direct['mean']:.6f} ± {direct['error']:.6f} at 2 edges, and "
+            f"{everything['mean']:.5f} ± {everything['error']:.5f} at 6.")
+
+
+def roulette(rows):
+    lines = ["| roulette from depth | red of the whole picture |", "|---|---|"]
+    for each in rows:
+        lines.append(f"| {each['depth'] or 'none'} | {each['mean']:.4f} ± {each['error']:.4f} |")
+    return "\n".join(lines)
+
+
+def lifted(rows):
+    lines = ["| renderer | lights moved by | pictures, samples | verdict | ratio | 99% interval | smallest visible error |",
+             "|---|---|---|---|---|---|---|"]
+    return "\n".join(lines + [row({**each, "scene": each["renderer"]}).replace("` |", f"` | {each['distance']} |", 1)
+                              for each in rows])
+
+
+EXPLAINED = {"ball": ball, "lamp": lamp, "pixel": pixel, "roulette": roulette, "lifted": lifted}

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace {
@@ -164,6 +165,25 @@ TEST(IndependenceWithoutNoise, IsNotDeniedToPicturesWithRareEvents)
     for (int batch = 0; batch < 256; ++batch) maker.add_batch(draw(100));
     EXPECT_FALSE(shared_noise(maker.golden({}), std::vector{draw(100), draw(100)}));
     EXPECT_FALSE(shared_noise(maker.golden({}), std::vector{draw(100), draw(100), draw(100)}));
+}
+
+TEST(IndependenceWithoutNoise, IsNotDeniedToPicturesThatRoundingTellsApart)
+{
+    // The sky is the same constant in all pictures. A renderer that adds floats, and divides by a number
+    // of samples that is not the same in all pictures, moves all of the sky by the same few units of the
+    // last place; the first two happen to agree.
+    std::mt19937_64 random(7);
+    const auto draw = [&](double last_places) {
+        Image image(64, 64);
+        for (std::size_t i = 0; i < image.pixels.size(); ++i)
+            image.pixels[i] =
+                Rgb(i % 50 == 0 ? 1.0 + 1e-3 * static_cast<double>(random() % 1000)
+                                : 0.9 * (1.0 + last_places * std::numeric_limits<float>::epsilon()));
+        return image;
+    };
+    golden::GoldenMaker maker(64, 64, 4);
+    for (int batch = 0; batch < 64; ++batch) maker.add_batch(draw(0.0));
+    EXPECT_FALSE(shared_noise(maker.golden({}), std::vector{draw(1.0), draw(1.0), draw(5.0)}));
 }
 
 TEST(IndependenceWithoutNoise, EqualPicturesAreRight)

@@ -4,12 +4,9 @@ import glob
 import os
 from dataclasses import dataclass
 
-import scene as scenes
-from collada import read_scene
 from peer import Peer
 from problem import Problem
 from write_luxcore import write_luxcore
-from write_mitsuba import write_mitsuba
 
 PATH_EDGES = 6
 # LuxCore limits the eye walk and the light walk of BIDIRCPU and not the path: with so many edges, the paths that
@@ -80,27 +77,22 @@ def start_peers(python, log_folder, only):
 
 def contestants_of(path, frame, size, plumbline, peers, folder):
     """The contestants on one scene, and a line for each that cannot take part."""
-    width, height = size
-    scene = read_scene(path)
-    if frame:
-        scenes.frame_camera(scene)
+    name_of_scene = os.path.splitext(os.path.basename(path))[0]
     found, absent = [], {}
-    for name in MITSUBA:
-        if name in peers:
-            file = write_mitsuba(scene, folder, width, height, PATH_EDGES)
-            found.append(Contestant(scene.name, name, _mitsuba(peers[name], file)))
+    exported = plumbline.export(path, frame, size, PATH_EDGES, folder) if peers else None
+    found += [Contestant(name_of_scene, name, _mitsuba(peers[name], exported)) for name in MITSUBA if name in peers]
     if any(name in peers for name in LUXCORE):
         try:
-            file = write_luxcore(scene, folder, width, height)
-            found += [Contestant(scene.name, name, _luxcore(peers[name], file, engine, size, edges))
+            file = write_luxcore(exported)
+            found += [Contestant(name_of_scene, name, _luxcore(peers[name], file, engine, size, edges))
                       for name, (engine, edges) in LUXCORE.items()]
         except Problem as problem:
             absent["luxcore"] = str(problem)
     bidirectional = any(each.name == "luxcore bidir" for each in found)
     for name, (integrator, edges) in PLUMBLINE.items():
         if edges == PATH_EDGES or bidirectional:
-            job = Job(path, frame, width, height, integrator, edges)
-            found.append(Contestant(scene.name, name, _plumbline(plumbline, job)))
+            job = Job(path, frame, *size, integrator, edges)
+            found.append(Contestant(name_of_scene, name, _plumbline(plumbline, job)))
     return found, absent
 
 

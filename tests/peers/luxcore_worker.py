@@ -8,12 +8,12 @@ from worker import cpu_seconds, serve  # first: it takes care of standard output
 import pyluxcore
 
 from blocks import block_means
+from luxcore_settings import settings
 
 pyluxcore.Init(lambda message: None)
 scenes = {}
 WARM_SECONDS = 0.3
 POLL_SECONDS = 0.005
-NEVER = 1 << 20
 
 
 def version():
@@ -27,18 +27,9 @@ def scene_of(path):
     return scenes[path]
 
 
-def configuration(engine, width, height, max_edges, threads, seed):
+def configuration(*arguments):
     properties = pyluxcore.Properties()
-    depths = [f"path.pathdepth.{kind}" for kind in ("total", "diffuse", "glossy", "specular")]
-    settings = {
-        "renderengine.type": engine, "renderengine.seed": 1 + seed, "native.threads.count": threads,
-        "sampler.type": "RANDOM", "film.width": width, "film.height": height, "film.filter.type": "NONE",
-        **{name: max_edges for name in depths}, "path.russianroulette.depth": NEVER,
-        "path.maxdepth": max_edges, "light.maxdepth": max_edges, "light.russianroulette.depth": NEVER,
-        "path.clamping.variance.maxvalue": 0.0, "film.noiseestimation.warmup": NEVER,
-        "film.imagepipelines.0.0.type": "NOP", "film.outputs.0.type": "RGB", "film.outputs.0.filename": "unused.exr",
-    }
-    for name, value in settings.items():
+    for name, value in settings(*arguments).items():
         properties.Set(pyluxcore.Property(name, value))
     return properties
 

@@ -38,6 +38,14 @@ class Plumbline:
         return {"samples": report["samples"], "seconds": report["seconds"], "cpu_seconds": report["cpu_seconds"],
                 "means": block_means(read_pfm(self.picture), job.width, job.height, top_first=False)}
 
+    def export(self, scene_path, frame, size, max_edges, folder):
+        """The scene for Mitsuba, an .xml in the folder; paths of at most so many edges, without roulette."""
+        name = os.path.splitext(os.path.basename(scene_path))[0]
+        path = os.path.join(folder, name + ".xml")
+        self.run(["export", scene_path, "-o", path, "-q", "--size", f"{size[0]}x{size[1]}",
+                  "--max-edges", str(max_edges), *(["--frame"] if frame else [])])
+        return path
+
 
 def read_pfm(path):
     """The numbers of a PFM picture in colour, from the bottom row up."""

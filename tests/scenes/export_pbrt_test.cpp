@@ -2,6 +2,7 @@
 
 #include "scenes/export/pbrt.h"
 #include "tests/scenes/exported.h"
+#include "tests/scenes/pbrt_grammar.h"
 
 #include <rapidcheck/gtest.h>
 
@@ -154,6 +155,36 @@ TEST(ExportPbrt, EveryQuoteAndBracketIsClosedAndColoursAreNoticed)
     EXPECT_EQ(exported.notices.size(), 1u);
     scene.materials = {scenes::Lambertian{Rgb(0.5)}, scenes::Emission{Rgb(2.0)}};
     EXPECT_TRUE(scenes::exports::to_pbrt(scene, {}, "a.pbrt").notices.empty());
+}
+
+TEST(ExportPbrt, TheGrammarOfItsDocumentationReadsAllOfIt)
+{
+    Scene scene = exported_scene();
+    scene.materials.insert(scene.materials.end(),
+                           {scenes::Mirror{Rgb(0.9)}, scenes::Glass{Rgb(1.0), Rgb(1.0), 1.5}});
+    scene.material_names.insert(scene.material_names.end(), {"mirror", "glass"});
+    scene.spheres = {{Vec3(1, 2, 3), 0.5, 2}, {Vec3(3, 2, 1), 1e-7, 3}};
+    scene.point_lights = {{Vec3(1, 2, 3), Rgb(1, 2, 3)}};
+    scene.directional_lights = {{Vec3(0, 0, -1), Rgb(1, 2, 3)}};
+    scene.spot_lights = {{Vec3(1, 2, 3), Vec3(0, 0.6, 0.8), Rgb(1, 2, 3), 0.5, 0.0}};
+    scene.environment = Rgb(0.1);
+    const std::string text = pbrt_text(scene);
+    EXPECT_EQ(fault_in_pbrt(text), "");
+    // A grammar that reads everything says nothing.
+    for (const auto& [right, wrong] : std::vector<std::pair<std::string, std::string>>{
+             {"\"float fov\"", "\"float fovx\""},
+             {"\"rgb L\" [ ", "\"rgb L\" [ 1 "},
+             {"\"perspective\"", "\"pinhole\""},
+             {"WorldBegin\n", ""},
+             {"AttributeEnd\n", ""},
+             {"NamedMaterial \"a_wall_0\"", "NamedMaterial \"a_wall\""},
+             {"\"float radius\" [ 0.5 ]", "\"float radius\" [ nan ]"},
+             {"\"float amount\"", "\"float weight\""}}) {
+        std::string changed = text;
+        const std::size_t at = changed.find(right);
+        ASSERT_NE(at, std::string::npos) << right;
+        EXPECT_NE(fault_in_pbrt(changed.replace(at, right.size(), wrong)), "") << right;
+    }
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include "scenes/read_scene.h"
 #include "tests/ref/transport/scene_files.h"
 #include "tests/scenes/exported.h"
+#include "tests/scenes/pbrt_grammar.h"
 
 #include <map>
 #include <set>
@@ -55,6 +56,9 @@ TEST(ExportScenes, EveryOneIsExportedOrRefusedForWhatItsFormatCannotSay)
         };
         expect(mitsuba, expected[0]);
         expect(pbrt, expected[1]);
+        if (expected[1].empty()) {
+            EXPECT_EQ(fault_in_pbrt(pbrt(scene, {}, "a.pbrt").files.back().bytes), "") << name;
+        }
         expect(gltf, without_spheres.contains(name) ? ""
                      : name == "spot_over_plane"    ? "spot light 1: glTF's spot lights fade"
                                                     : "sphere 1 of ");
