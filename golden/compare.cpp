@@ -146,9 +146,11 @@ std::array<double, 3> detectable_error(const Golden& golden, std::uint64_t batch
 }
 
 Comparison compare(const Golden& golden, const RenderStage& render, Method method,
-                   const CompareOptions& options)
+                   const CompareOptions& given)
 {
-    if (options.stages.empty()) throw std::invalid_argument("there is no stage to render");
+    if (given.stages.empty()) throw std::invalid_argument("there is no stage to render");
+    CompareOptions options = given;
+    if (options.stages.size() > 1) options.suspicion_level = options.screening_level;
     Candidate first(golden.functionals);
     render(0, options.stages[0], first);
     Comparison comparison = first_stage(golden, first, method, options);

@@ -10,6 +10,9 @@ namespace golden {
 struct CompareOptions {
     /// Chance that the first stage of a right picture suspects a difference, all tests together.
     double suspicion_level = 0.05;
+    /// The same where a fresh render can confirm or clear it: then the first stage only chooses what the
+    /// next one tests, and a higher level finds more at the price of more renders.
+    double screening_level = 0.2;
     /// Level of each later stage, which tests the one suspected functional, one-sided.
     double confirmation_level = 1e-7;
     double certainty_level = 1e-8; // of an adjusted p-value: below it, one stage is enough for FAIL

@@ -16,7 +16,7 @@ double false_alarm_bound(const Functionals& functionals, Method method, std::uin
     for (const RegionKind kind : multiplicity.kinds()) {
         // The first stage is two-sided, the later ones test its direction: twice the chance of one sign.
         std::vector<double> levels(stages.size(), options.confirmation_level);
-        levels[0] = options.suspicion_level / multiplicity.of(kind) / 2.0;
+        levels[0] = options.screening_level / multiplicity.of(kind) / 2.0;
         sum += 2.0 * multiplicity.tests_of(kind) *
                all_exceed(counts, levels, static_cast<double>(golden_batches));
     }

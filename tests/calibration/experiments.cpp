@@ -107,6 +107,7 @@ FalseAlarms measure_false_alarms(Noise noise, const Plan& plan)
         const golden::Comparison comparison = compare(golden, replay, Method::ranks, options);
         FalseAlarms one;
         one.suspected = {comparison.p < options.suspicion_level, 1};
+        one.screened = {comparison.p < options.screening_level, 1};
         one.failed = {comparison.verdict == golden::Verdict::fail, 1};
         for (const golden::Finding& finding : comparison.findings) {
             // For a black region no statement is possible: p is 1.
@@ -127,6 +128,7 @@ FalseAlarms measure_false_alarms(Noise noise, const Plan& plan)
             to.trials += from.trials;
         };
         add(result.suspected, one.suspected);
+        add(result.screened, one.screened);
         add(result.failed, one.failed);
         add(result.below_1e3, one.below_1e3);
         add(result.below_1e5, {one.below_1e5.hits, one.below_1e3.trials});

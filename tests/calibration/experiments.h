@@ -38,7 +38,8 @@ struct Plan {
 
 /// The results for right pictures.
 struct FalseAlarms {
-    Count suspected; // first stages with a suspicion
+    Count suspected; // first stages with p below the level of a comparison without further stages
+    Count screened;  // and below that of one with a second stage, which is then rendered
     Count failed;    // after all stages
     /// Single tests, of all functionals: p below 1e-3 and 1e-5. The rates should equal these numbers.
     Count below_1e3, below_1e5;
