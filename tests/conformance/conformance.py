@@ -67,7 +67,7 @@ def main():
         exported = {name: export(name, program, folder) for name in names}
         for name in given.renderers.split(","):
             results["renderers"][name] = judge_renderer(RENDERERS[name], exported, program, peers, folder, given)
-        measured_here = {} if given.scenes else {"roulette": roulette(exported["camera_in_glass"]["path"], peers),
+        measured_here = {} if given.scenes else {"roulette": roulette(exported["camera_in_glass"]["path"], peers, folder),
                                                  "lifted": lifted_lights(program, peers, folder, given)}
     finally:
         peers.stop()
@@ -96,17 +96,17 @@ def explanations(python, folder, variant, llvm):
     return json.loads(measured(python, "explain.py", folder, variant, environment={"DRJIT_LIBLLVM_PATH": llvm}))
 
 
-def roulette(path, peers, pictures=16, walk=8):
+def roulette(path, peers, folder, pictures=16, walk=8):
     """The mean of the picture of LuxCore's bidirectional engine, by the depth at which its roulette begins."""
     rows = []
+    place = os.path.join(folder, "roulette")
+    os.makedirs(place, exist_ok=True)
     for depth in (NEVER, 3, 1):
         files = peers.by_name["luxcore"].ask(limit=3600, do="render", path=path, spp=64, seeds=list(range(pictures)),
-                                             folder=os.path.dirname(path), integrator="BIDIRCPU", max_edges=walk,
+                                             folder=place, integrator="BIDIRCPU", max_edges=walk,
                                              roulette=depth)["files"]
         pixels = [read_pfm(file)[0::3] for file in files]
         means = [sum(red) / len(red) for red in pixels]
-        for file in files:
-            os.remove(file)
         rows.append({"depth": None if depth == NEVER else depth, "mean": statistics.mean(means),
                      "error": statistics.stdev(means) / pictures**0.5})
     return rows
