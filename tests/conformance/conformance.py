@@ -2,6 +2,7 @@
 ./run conformance makes the virtual environment and calls this."""
 
 import argparse
+import datetime
 import glob
 import json
 import os
@@ -62,7 +63,7 @@ def main():
     variant = given.variant or ("llvm_ad_rgb" if llvm else "scalar_rgb")
     python = os.path.join(ROOT, "build", "peers", "venv", "bin", "python")
     peers = Peers(python, variant, llvm, folder)
-    results = {"processor": processor(), "renderers": {}}
+    results = {"date": f"{datetime.date.today():%-d %B %Y}", "processor": processor(), "renderers": {}}
     try:
         exported = {name: export(name, program, folder) for name in names}
         for name in given.renderers.split(","):
