@@ -2,6 +2,7 @@
 ./run conformance makes the virtual environment and calls this."""
 
 import argparse
+import datetime
 import glob
 import json
 import os
@@ -62,12 +63,12 @@ def main():
     variant = given.variant or ("llvm_ad_rgb" if llvm else "scalar_rgb")
     python = os.path.join(ROOT, "build", "peers", "venv", "bin", "python")
     peers = Peers(python, variant, llvm, folder)
-    results = {"processor": processor(), "renderers": {}}
+    results = {"date": f"{datetime.date.today():%-d %B %Y}", "processor": processor(), "renderers": {}}
     try:
         exported = {name: export(name, program, folder) for name in names}
         for name in given.renderers.split(","):
             results["renderers"][name] = judge_renderer(RENDERERS[name], exported, program, peers, folder, given)
-        measured_here = {} if given.scenes else {"roulette": roulette(exported["camera_in_glass"]["path"], peers),
+        measured_here = {} if given.scenes else {"roulette": roulette(exported["camera_in_glass"]["path"], peers, folder),
                                                  "lifted": lifted_lights(program, peers, folder, given)}
     finally:
         peers.stop()
@@ -96,17 +97,17 @@ def explanations(python, folder, variant, llvm):
     return json.loads(measured(python, "explain.py", folder, variant, environment={"DRJIT_LIBLLVM_PATH": llvm}))
 
 
-def roulette(path, peers, pictures=16, walk=8):
+def roulette(path, peers, folder, pictures=16, walk=8):
     """The mean of the picture of LuxCore's bidirectional engine, by the depth at which its roulette begins."""
     rows = []
+    place = os.path.join(folder, "roulette")
+    os.makedirs(place, exist_ok=True)
     for depth in (NEVER, 3, 1):
         files = peers.by_name["luxcore"].ask(limit=3600, do="render", path=path, spp=64, seeds=list(range(pictures)),
-                                             folder=os.path.dirname(path), integrator="BIDIRCPU", max_edges=walk,
+                                             folder=place, integrator="BIDIRCPU", max_edges=walk,
                                              roulette=depth)["files"]
         pixels = [read_pfm(file)[0::3] for file in files]
         means = [sum(red) / len(red) for red in pixels]
-        for file in files:
-            os.remove(file)
         rows.append({"depth": None if depth == NEVER else depth, "mean": statistics.mean(means),
                      "error": statistics.stdev(means) / pictures**0.5})
     return rows

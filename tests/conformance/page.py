@@ -26,7 +26,7 @@ def between(text, name, new):
 
 
 def scenes(found, results):
-    lines = [f"{found['version']}, {results['processor']}:", "",
+    lines = [f"{found['version']}, {results['date']}, {results['processor']}:", "",
              "| scene | pictures, samples | verdict | ratio | 99% interval | smallest visible error |",
              "|---|---|---|---|---|---|"]
     for scene in found["scenes"]:

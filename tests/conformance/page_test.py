@@ -33,7 +33,7 @@ class Rows(unittest.TestCase):
         self.assertTrue(page.row({**JUDGED, "detectable": [0.001, None, 0.002]}).endswith("| unknown |"))
 
     def test_a_scene_that_is_not_exported_has_its_reason(self):
-        table = page.scenes({"version": "V", "scenes": [JUDGED, REFUSED]}, {"processor": "P"})
+        table = page.scenes({"version": "V", "scenes": [JUDGED, REFUSED]}, {"date": "D", "processor": "P"})
         self.assertIn("| `a_spot` | - | not exported | | | no such light |", table)
 
 
@@ -63,7 +63,7 @@ class Marks(unittest.TestCase):
                      "lifted": [{**JUDGED, "renderer": "one", "distance": 0.5}],
                      "roulette": [{"depth": None, "mean": 0.5, "error": 0.25}, {"depth": 3, "mean": 0.75, "error": 0.25}]}
         found = {"version": "V", "scenes": [JUDGED]}
-        results = {"processor": "P", "renderers": {name: found for name in RENDERERS}, "explained": explained}
+        results = {"date": "D", "processor": "P", "renderers": {name: found for name in RENDERERS}, "explained": explained}
         with open(PAGE, encoding="utf-8") as file:
             text = file.read()
         with tempfile.NamedTemporaryFile("w+", encoding="utf-8", suffix=".md") as copy:
