@@ -1,0 +1,257 @@
+#include "golden/explain.h"
+
+#include "golden/judge.h"
+#include "golden/reason.h"
+#include "golden/scatter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace golden {
+
+namespace {
+
+using images::Image;
+using images::Rgb;
+
+/// Of one look at one explanation. The right one is lost with at most this chance in each look.
+constexpr double rejection_level = 2e-4;
+/// Below it no further test of the explanation is made.
+constexpr double clear_level = 1e-12;
+constexpr std::size_t most_named = 3;
+
+Image without(const Image& picture, const Image& added)
+{
+    Image result = picture;
+    for (std::size_t i = 0; i < result.pixels.size(); ++i) result.pixels[i] -= added.pixels[i];
+    return result;
+}
+
+/// The noise that the explanation adds to a functional. Pixels are taken as independent.
+MeanEstimate noise_of(const Golden& golden, const Explanation& explanation, std::size_t functional,
+                      std::size_t channel)
+{
+    const Functionals& functionals = golden.functionals;
+    const Region& region = functionals.regions()[functionals.at(functional).region];
+    const auto c = static_cast<int>(channel);
+    double variance = 0.0;
+    for (int y = region.y0; y < region.y1; ++y)
+        for (int x = region.x0; x < region.x1; ++x) {
+            const auto i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(golden.mean.width) +
+                static_cast<std::size_t>(x);
+            const double error =
+                functionals.pixel_weight(functional, channel, i) * explanation.error.pixels[i][c];
+            variance += error * error;
+        }
+    return {0.0, variance, std::max(1.0, explanation.batches - 1.0)};
+}
+
+/// A functional of the candidate, and |skewness| / sqrt(n) of its noise.
+struct Estimate {
+    MeanEstimate value;
+    double skewed;
+};
+
+/// Of a single picture, as compare_picture assumes its noise; `extra`: variance that it has besides.
+Estimate estimate_of_picture(const Golden& golden, const Image& picture, double value,
+                             const Moments& reference, double batches, double extra,
+                             std::size_t functional, std::size_t channel)
+{
+    Estimate estimate{{value, reference.variance / batches + extra, reference.count - 1.0},
+                      std::abs(reference.skewness) / std::sqrt(batches)};
+    const Scatter shown = scatter(golden, picture, functional, channel);
+    if (!(shown.variance > estimate.value.variance)) return estimate;
+    const double share = shown.variance / (shown.variance + shown.golden);
+    estimate.value.variance = shown.variance;
+    estimate.value.degrees = std::max(1.0, (shown.blocks - 1.0) * share * share);
+    estimate.skewed =
+        std::max(estimate.skewed, std::abs(shown.blocks_skewness) / std::sqrt(shown.blocks));
+    return estimate;
+}
+
+/// Of several pictures, each less the same explanation with its `noise`.
+Estimate estimate_of_pictures(const std::vector<double>& values, const MeanEstimate& noise)
+{
+    const Moments shown = moments(values);
+    const MeanEstimate mean = mean_estimate(shown);
+    return {{mean.mean, mean.variance + noise.variance, welch_degrees(mean, noise)},
+            std::abs(shown.skewness) / std::sqrt(shown.count)};
+}
+
+/// The largest relative difference of the whole picture among the channels.
+double difference(const Golden& golden, const std::vector<Image>& pictures)
+{
+    Rgb sum(0.0);
+    Rgb expected(0.0);
+    for (const Image& picture : pictures)
+        for (const Rgb& pixel : picture.pixels) sum += pixel / static_cast<double>(pictures.size());
+    for (const Rgb& pixel : golden.mean.pixels) expected += pixel;
+    double largest = 0.0;
+    for (int c = 0; c < 3; ++c)
+        if (expected[c] > 0.0) largest = std::max(largest, std::abs(sum[c] / expected[c] - 1.0));
+    return largest;
+}
+
+bool is_black(const Image& image)
+{
+    return std::all_of(image.pixels.begin(), image.pixels.end(),
+                       [](const Rgb& pixel) { return pixel == Rgb(0.0); });
+}
+
+/// Whether two sums of the same samples differ by no more than rounding.
+bool same(const Image& a, const Image& b)
+{
+    constexpr double rounding = 1e-9;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            if (!(std::abs(a.pixels[i][c] - b.pixels[i][c]) <=
+                  rounding * (std::abs(a.pixels[i][c]) + std::abs(b.pixels[i][c]))))
+                return false;
+    return true;
+}
+
+struct Standing {
+    bool alive = true;
+    bool fits = false;
+    double detectable = 0.0;
+    std::optional<std::size_t> same_as = {}; // an earlier explanation that makes the same picture
+};
+
+/// Mistakes that change nothing here are dropped, and of several that make the same picture the first is
+/// kept.
+std::vector<Standing> standings_of(const std::vector<Explanation>& explanations)
+{
+    std::vector<Standing> standings(explanations.size());
+    for (std::size_t i = 0; i < explanations.size(); ++i) {
+        if (is_black(explanations[i].adds)) standings[i].alive = false;
+        for (std::size_t j = 0; j < i && standings[i].alive; ++j)
+            if (standings[j].alive && same(explanations[i].adds, explanations[j].adds)) {
+                standings[i].alive = false;
+                standings[i].same_as = j;
+            }
+    }
+    return standings;
+}
+
+std::size_t count(const std::vector<Explanation>& explanations, const std::vector<Standing>& standings,
+                  bool fitted, bool Standing::*state)
+{
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < standings.size(); ++i)
+        if (explanations[i].fitted == fitted && standings[i].*state) ++found;
+    return found;
+}
+
+std::string sentence(const std::vector<Explanation>& explanations,
+                     const std::vector<Standing>& standings, const std::vector<std::size_t>& named,
+                     const CompareOptions& options)
+{
+    std::string text = "Your picture is ";
+    double detectable = 0.0;
+    for (const std::size_t i : named) {
+        if (i != named.front()) text += i == named.back() ? ", or " : ", ";
+        text += explanations[i].is;
+        detectable = std::max(detectable, standings[i].detectable);
+    }
+    text += named.size() == 1 ? ": with this undone, " : ": with either undone, ";
+    text += detectable <= options.specification
+                ? "it PASSes."
+                : "no difference is left; an error of " + say_percent(detectable) +
+                      " of the whole picture would have been found.";
+    std::string others;
+    for (std::size_t i = 0; i < explanations.size(); ++i)
+        if (named.size() == 1 && standings[i].same_as == named.front())
+            others += (others.empty() ? "" : ", or ") + explanations[i].is;
+    return others.empty() ? text : text + " It would be the same if it were " + others + ".";
+}
+
+} // namespace
+
+Fit fit(const Golden& golden, const std::vector<Image>& pictures, double samples,
+        const Explanation& explanation, const CompareOptions& options)
+{
+    const Functionals& functionals = golden.functionals;
+    const bool single = pictures.size() == 1;
+    const Judge judge(golden, single ? Method::picture : Method::welch, options);
+    std::vector<Image> undone;
+    std::vector<Row> rows;
+    for (const Image& picture : pictures) {
+        undone.push_back(without(picture, explanation.adds));
+        rows.push_back(functionals.evaluate(undone.back()));
+    }
+    constexpr double without_end = std::numeric_limits<double>::infinity();
+    Fit result;
+    std::array<double, channel_count> detectable{};
+    detectable.fill(without_end);
+    for (std::size_t f = 0; f < functionals.size(); ++f)
+        for (std::size_t c = 0; c < channel_count; ++c) {
+            if (!judge.can_test(f)) continue;
+            const MeanEstimate noise = noise_of(golden, explanation, f, c);
+            const std::vector<double> values = values_of(rows, functionals, f, c);
+            const Moments reference = moments(values_of(golden.reference, functionals, f, c));
+            const Estimate estimate =
+                single ? estimate_of_picture(golden, undone.front(), values.front(), reference,
+                                             samples / batch_size_of(golden), noise.variance, f, c)
+                       : estimate_of_pictures(values, noise);
+            const Finding finding = judge.judge(estimate.value, estimate.skewed, f, c);
+            if (!finding.conclusive) continue;
+            result.p = std::min(result.p, finding.adjusted_p);
+            if (result.p < clear_level) return result;
+            if (finding.region.kind != RegionKind::whole) continue;
+            detectable[c] = std::isnan(finding.detectable)
+                                ? 0.0 // black: nothing can be wrong by a factor
+                                : std::min(detectable[c], finding.detectable);
+        }
+    result.detectable = *std::max_element(detectable.begin(), detectable.end());
+    return result;
+}
+
+std::string explain(const Golden& golden, const std::vector<Image>& pictures, double samples,
+                    const MoreExplanations& more, const CompareOptions& options)
+{
+    constexpr double part_of_difference = 0.125;
+    const double enough =
+        std::max(options.specification, part_of_difference * difference(golden, pictures));
+    CompareOptions looks = options;
+    looks.suspicion_level = rejection_level;
+    std::vector<Standing> standings;
+    std::vector<Explanation> last;
+    for (;;) {
+        std::vector<Explanation> explanations = more();
+        if (explanations.empty()) break;
+        last = std::move(explanations);
+        if (standings.empty()) standings = standings_of(last);
+        for (std::size_t i = 0; i < last.size(); ++i) {
+            Standing& standing = standings[i];
+            if (!standing.alive) continue;
+            const Fit found = fit(golden, pictures, samples, last[i], looks);
+            standing.alive = found.p >= rejection_level;
+            standing.detectable = found.detectable;
+            standing.fits = standing.alive && found.detectable <= enough;
+        }
+        const bool any_fits = count(last, standings, false, &Standing::fits) > 0;
+        const bool undecided = count(last, standings, false, &Standing::fits) <
+                               count(last, standings, false, &Standing::alive);
+        const bool fitted_undecided = count(last, standings, true, &Standing::fits) <
+                                      count(last, standings, true, &Standing::alive);
+        if (!undecided && (any_fits || !fitted_undecided)) break;
+    }
+    std::vector<std::size_t> named;
+    const auto collect = [&](bool fitted) {
+        for (std::size_t i = 0; i < standings.size(); ++i)
+            if (standings[i].alive && last[i].fitted == fitted) named.push_back(i);
+    };
+    const auto any_fits = [&] {
+        return std::any_of(named.begin(), named.end(), [&](std::size_t i) { return standings[i].fits; });
+    };
+    collect(false);
+    if (named.empty()) collect(true);
+    if (!any_fits() || named.size() > most_named) return "";
+    return sentence(last, standings, named, options);
+}
+
+} // namespace golden
