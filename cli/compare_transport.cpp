@@ -130,9 +130,10 @@ private:
         Progress progress(name_ + ", mistakes of light transport, look " + std::to_string(look_), 0.0,
                           static_cast<double>(explanations_.next_batches()), quiet_);
         const images::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
-        auto explanations = explanations_.more(mean, golden_.mean, monitor);
+        const bool rendered = explanations_.render(monitor);
         if (interrupt_requested()) throw Interrupted();
-        return explanations;
+        return rendered ? explanations_.explanations(mean, golden_.mean)
+                        : std::vector<golden::Explanation>();
     }
 
     const golden::Golden& golden_;

@@ -54,6 +54,7 @@ MeanEstimate noise_of(const Golden& golden, const Explanation& explanation, std:
 struct Estimate {
     MeanEstimate value;
     double skewed;
+    double scatter = 0.0; // Fit::scatter
 };
 
 /// Of a single picture, as compare_picture assumes its noise; `extra`: variance that it has besides.
@@ -62,8 +63,9 @@ Estimate estimate_of_picture(const Golden& golden, const Image& picture, double 
                              std::size_t functional, std::size_t channel)
 {
     Estimate estimate{{value, reference.variance / batches + extra, reference.count - 1.0},
-                      std::abs(reference.skewness) / std::sqrt(batches)};
+                      std::abs(reference.skewness) / std::sqrt(batches), 0.0};
     const Scatter shown = scatter(golden, picture, functional, channel);
+    estimate.scatter = shown.variance + shown.golden;
     if (!(shown.variance > estimate.value.variance)) return estimate;
     const double share = shown.variance / (shown.variance + shown.golden);
     estimate.value.variance = shown.variance;
@@ -79,8 +81,74 @@ Estimate estimate_of_pictures(const std::vector<double>& values, const MeanEstim
     const Moments shown = moments(values);
     const MeanEstimate mean = mean_estimate(shown);
     return {{mean.mean, mean.variance + noise.variance, welch_degrees(mean, noise)},
-            std::abs(shown.skewness) / std::sqrt(shown.count)};
+            std::abs(shown.skewness) / std::sqrt(shown.count), 0.0};
 }
+
+/// The pictures, to which explanations are fitted.
+class Fitting {
+public:
+    Fitting(const Golden& golden, const std::vector<Image>& pictures, double samples,
+            const CompareOptions& options)
+        : golden_(golden), pictures_(pictures), batches_(samples / batch_size_of(golden)),
+          single_(pictures.size() == 1),
+          judge_(golden, single_ ? Method::picture : Method::welch, options)
+    {
+        for (std::size_t f = 0; f < golden.functionals.size(); ++f)
+            for (std::size_t c = 0; c < channel_count; ++c)
+                references_.push_back(moments(values_of(golden.reference, golden.functionals, f, c)));
+    }
+
+    [[nodiscard]] Fit fit(const Explanation& explanation) const
+    {
+        const Functionals& functionals = golden_.functionals;
+        std::vector<Image> undone;
+        std::vector<Row> rows;
+        for (const Image& picture : pictures_) {
+            undone.push_back(without(picture, explanation.adds));
+            rows.push_back(functionals.evaluate(undone.back()));
+        }
+        Fit result;
+        std::array<double, channel_count> detectable{};
+        detectable.fill(std::numeric_limits<double>::infinity());
+        for (std::size_t f = 0; f < functionals.size(); ++f)
+            for (std::size_t c = 0; c < channel_count; ++c) {
+                if (!judge_.can_test(f)) continue;
+                const Moments& reference = references_[f * channel_count + c];
+                const Estimate estimate = estimated(undone.front(), rows, explanation, f, c);
+                if (f == 0) result.scatter[c] = estimate.scatter;
+                const auto p = judge_.adjusted_p(estimate.value, estimate.skewed, reference, f, c);
+                if (!p) continue;
+                result.p = std::min(result.p, *p);
+                if (result.p < clear_level) return result;
+                if (functionals.regions()[functionals.at(f).region].kind != RegionKind::whole) continue;
+                const double found = judge_.judge(estimate.value, estimate.skewed, f, c).detectable;
+                // Where the golden is black nothing can be wrong by a factor.
+                detectable[c] = std::isnan(found) ? 0.0 : std::min(detectable[c], found);
+            }
+        result.detectable = *std::max_element(detectable.begin(), detectable.end());
+        return result;
+    }
+
+private:
+    [[nodiscard]] Estimate estimated(const Image& undone, const std::vector<Row>& rows,
+                                     const Explanation& explanation, std::size_t functional,
+                                     std::size_t channel) const
+    {
+        const MeanEstimate noise = noise_of(golden_, explanation, functional, channel);
+        const std::vector<double> values = values_of(rows, golden_.functionals, functional, channel);
+        if (!single_) return estimate_of_pictures(values, noise);
+        return estimate_of_picture(golden_, undone, values.front(),
+                                   references_[functional * channel_count + channel], batches_,
+                                   noise.variance, functional, channel);
+    }
+
+    const Golden& golden_;
+    const std::vector<Image>& pictures_;
+    double batches_; // of a single picture
+    bool single_;
+    Judge judge_;
+    std::vector<Moments> references_; // per functional, then channel
+};
 
 /// The largest relative difference of the whole picture among the channels.
 double difference(const Golden& golden, const std::vector<Image>& pictures)
@@ -117,7 +185,7 @@ bool same(const Image& a, const Image& b)
 struct Standing {
     bool alive = true;
     bool fits = false;
-    double detectable = 0.0;
+    Fit fit = {};
     std::optional<std::size_t> same_as = {}; // an earlier explanation that makes the same picture
 };
 
@@ -135,6 +203,25 @@ std::vector<Standing> standings_of(const std::vector<Explanation>& explanations)
             }
     }
     return standings;
+}
+
+/// An explanation that leaves far more scatter than one that fits is wrong: what it leaves is structure,
+/// which the tests of a single picture take for noise.
+void dismiss(const std::vector<Explanation>& explanations, std::vector<Standing>& standings)
+{
+    constexpr double far_more = 2.0;
+    for (const bool fitted : {false, true}) {
+        std::array<double, channel_count> least{};
+        least.fill(std::numeric_limits<double>::infinity());
+        for (std::size_t i = 0; i < standings.size(); ++i)
+            for (std::size_t c = 0; c < channel_count; ++c)
+                if (standings[i].fits && (fitted || !explanations[i].fitted))
+                    least[c] = std::min(least[c], standings[i].fit.scatter[c]);
+        for (Standing& standing : standings)
+            for (std::size_t c = 0; c < channel_count; ++c)
+                if (standing.fit.scatter[c] > far_more * least[c])
+                    standing.alive = standing.fits = false;
+    }
 }
 
 std::size_t count(const std::vector<Explanation>& explanations, const std::vector<Standing>& standings,
@@ -155,7 +242,7 @@ std::string sentence(const std::vector<Explanation>& explanations,
     for (const std::size_t i : named) {
         if (i != named.front()) text += i == named.back() ? ", or " : ", ";
         text += explanations[i].is;
-        detectable = std::max(detectable, standings[i].detectable);
+        detectable = std::max(detectable, standings[i].fit.detectable);
     }
     text += named.size() == 1 ? ": with this undone, " : ": with either undone, ";
     text += detectable <= options.specification
@@ -174,40 +261,7 @@ std::string sentence(const std::vector<Explanation>& explanations,
 Fit fit(const Golden& golden, const std::vector<Image>& pictures, double samples,
         const Explanation& explanation, const CompareOptions& options)
 {
-    const Functionals& functionals = golden.functionals;
-    const bool single = pictures.size() == 1;
-    const Judge judge(golden, single ? Method::picture : Method::welch, options);
-    std::vector<Image> undone;
-    std::vector<Row> rows;
-    for (const Image& picture : pictures) {
-        undone.push_back(without(picture, explanation.adds));
-        rows.push_back(functionals.evaluate(undone.back()));
-    }
-    constexpr double without_end = std::numeric_limits<double>::infinity();
-    Fit result;
-    std::array<double, channel_count> detectable{};
-    detectable.fill(without_end);
-    for (std::size_t f = 0; f < functionals.size(); ++f)
-        for (std::size_t c = 0; c < channel_count; ++c) {
-            if (!judge.can_test(f)) continue;
-            const MeanEstimate noise = noise_of(golden, explanation, f, c);
-            const std::vector<double> values = values_of(rows, functionals, f, c);
-            const Moments reference = moments(values_of(golden.reference, functionals, f, c));
-            const Estimate estimate =
-                single ? estimate_of_picture(golden, undone.front(), values.front(), reference,
-                                             samples / batch_size_of(golden), noise.variance, f, c)
-                       : estimate_of_pictures(values, noise);
-            const Finding finding = judge.judge(estimate.value, estimate.skewed, f, c);
-            if (!finding.conclusive) continue;
-            result.p = std::min(result.p, finding.adjusted_p);
-            if (result.p < clear_level) return result;
-            if (finding.region.kind != RegionKind::whole) continue;
-            detectable[c] = std::isnan(finding.detectable)
-                                ? 0.0 // black: nothing can be wrong by a factor
-                                : std::min(detectable[c], finding.detectable);
-        }
-    result.detectable = *std::max_element(detectable.begin(), detectable.end());
-    return result;
+    return Fitting(golden, pictures, samples, options).fit(explanation);
 }
 
 std::string explain(const Golden& golden, const std::vector<Image>& pictures, double samples,
@@ -218,6 +272,7 @@ std::string explain(const Golden& golden, const std::vector<Image>& pictures, do
         std::max(options.specification, part_of_difference * difference(golden, pictures));
     CompareOptions looks = options;
     looks.suspicion_level = rejection_level;
+    const Fitting fitting(golden, pictures, samples, looks);
     std::vector<Standing> standings;
     std::vector<Explanation> last;
     for (;;) {
@@ -228,11 +283,11 @@ std::string explain(const Golden& golden, const std::vector<Image>& pictures, do
         for (std::size_t i = 0; i < last.size(); ++i) {
             Standing& standing = standings[i];
             if (!standing.alive) continue;
-            const Fit found = fit(golden, pictures, samples, last[i], looks);
-            standing.alive = found.p >= rejection_level;
-            standing.detectable = found.detectable;
-            standing.fits = standing.alive && found.detectable <= enough;
+            standing.fit = fitting.fit(last[i]);
+            standing.alive = standing.fit.p >= rejection_level;
+            standing.fits = standing.alive && standing.fit.detectable <= enough;
         }
+        dismiss(last, standings);
         const bool any_fits = count(last, standings, false, &Standing::fits) > 0;
         const bool undecided = count(last, standings, false, &Standing::fits) <
                                count(last, standings, false, &Standing::alive);
@@ -240,18 +295,16 @@ std::string explain(const Golden& golden, const std::vector<Image>& pictures, do
                                       count(last, standings, true, &Standing::alive);
         if (!undecided && (any_fits || !fitted_undecided)) break;
     }
-    std::vector<std::size_t> named;
-    const auto collect = [&](bool fitted) {
+    if (getenv("DBG")) for (std::size_t i = 0; i < standings.size(); ++i) if (standings[i].alive) fprintf(stderr, "   %s fits %d p %g det %g enough %g scatter %g %g %g\n", last[i].is.c_str(), standings[i].fits, standings[i].fit.p, standings[i].fit.detectable, enough, standings[i].fit.scatter[0], standings[i].fit.scatter[1], standings[i].fit.scatter[2]);
+    for (const bool fitted : {false, true}) {
+        std::vector<std::size_t> named;
         for (std::size_t i = 0; i < standings.size(); ++i)
             if (standings[i].alive && last[i].fitted == fitted) named.push_back(i);
-    };
-    const auto any_fits = [&] {
-        return std::any_of(named.begin(), named.end(), [&](std::size_t i) { return standings[i].fits; });
-    };
-    collect(false);
-    if (named.empty()) collect(true);
-    if (!any_fits() || named.size() > most_named) return "";
-    return sentence(last, standings, named, options);
+        if (named.empty()) continue;
+        const bool all_fit = count(last, standings, fitted, &Standing::fits) == named.size();
+        return all_fit && named.size() <= most_named ? sentence(last, standings, named, options) : "";
+    }
+    return "";
 }
 
 } // namespace golden

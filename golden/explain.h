@@ -6,8 +6,10 @@
 
 #include "golden/compare_options.h"
 #include "golden/golden.h"
+#include "golden/region.h"
 #include "images/image.h"
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -30,6 +32,9 @@ struct Fit {
     /// The smallest relative error of the whole picture that would have been found; infinite if none.
     /// Only if p is not tiny: else the tests end with the first difference.
     double detectable = 0.0;
+    /// Of a single picture: the variance of its whole, per channel, as the scatter of the pixels shows
+    /// it. What is left of a mistake scatters as well.
+    std::array<double, channel_count> scatter{};
 };
 
 /// Judges one picture of `samples` samples per pixel, or several independent ones, less what the mistake

@@ -10,6 +10,7 @@
 #include "golden/statistics.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace golden {
@@ -35,6 +36,12 @@ public:
     /// Tests an estimate of the functional. `skewed`: |skewness| / sqrt(batches) of its noise.
     [[nodiscard]] Finding judge(const MeanEstimate& candidate, double skewed, std::size_t functional,
                                 std::size_t channel) const;
+
+    /// The adjusted p-value of the same test, without ratio and detectable error, which take longer;
+    /// none if it is not conclusive. `reference`: the moments of the golden's functional.
+    [[nodiscard]] std::optional<double> adjusted_p(const MeanEstimate& candidate, double skewed,
+                                                   const Moments& reference, std::size_t functional,
+                                                   std::size_t channel) const;
 
 private:
     [[nodiscard]] Finding blank(std::size_t functional, std::size_t channel) const;

@@ -45,18 +45,20 @@ std::uint64_t SceneExplanations::next_batches() const
     return now == 0 ? budget_.first_batches : std::min(2 * now, budget_.most_batches);
 }
 
-std::vector<golden::Explanation> SceneExplanations::more(const Image& mean, const Image& golden,
-                                                         const images::Monitor& monitor)
+bool SceneExplanations::render(const images::Monitor& monitor)
 {
-    if (pictures_.batches() >= budget_.most_batches) return {};
-    if (!pictures_.render(next_batches(), monitor)) return {};
-    std::vector<golden::Explanation> explanations;
-    for (const Mistake& mistake : mistakes_.mistakes) explanations.push_back(explanation(mistake));
-    if (mistakes_.roulettes.empty()) return explanations;
-    explanations.push_back(
-        explanation(best_roulette(mistakes_.roulettes, pictures_, mean, golden)));
-    explanations.back().fitted = true;
-    return explanations;
+    return pictures_.batches() < budget_.most_batches && pictures_.render(next_batches(), monitor);
+}
+
+std::vector<golden::Explanation> SceneExplanations::explanations(const Image& mean,
+                                                                 const Image& golden) const
+{
+    std::vector<golden::Explanation> all;
+    for (const Mistake& mistake : mistakes_.mistakes) all.push_back(explanation(mistake));
+    if (mistakes_.roulettes.empty()) return all;
+    all.push_back(explanation(best_roulette(mistakes_.roulettes, pictures_, mean, golden)));
+    all.back().fitted = true;
+    return all;
 }
 
 golden::Explanation SceneExplanations::explanation(const Mistake& mistake) const

@@ -22,7 +22,7 @@ struct ExplanationBudget {
 /// Pictures that are larger than this need too much memory for a picture of each mistake.
 inline constexpr std::size_t most_explained_pixels = std::size_t{1} << 18;
 
-/// The mistakes of usual_mistakes, with less noise at each call of `more`.
+/// The mistakes of usual_mistakes, with less noise after each call of `render`.
 class SceneExplanations {
 public:
     /// `options`: those of the golden, with another seed. `scene` must outlive it. Throws
@@ -30,12 +30,15 @@ public:
     SceneExplanations(const scenes::Scene& scene, int width, int height, ref::PathOptions options,
                       unsigned threads, const ExplanationBudget& budget = {});
 
-    /// Renders more. `mean`: the picture that is to be explained, for mistakes with a parameter that is
-    /// fitted to it. Empty if the budget is spent or `monitor` stopped it.
-    std::vector<golden::Explanation> more(const images::Image& mean, const images::Image& golden,
-                                          const images::Monitor& monitor);
+    /// Renders more. False if the budget is spent or `monitor` stopped it.
+    bool render(const images::Monitor& monitor = {});
 
-    /// The batches of the next call of `more`, and those of the last one.
+    /// By what was rendered so far. `mean`: the picture that is to be explained, for mistakes with a
+    /// parameter that is fitted to it.
+    [[nodiscard]] std::vector<golden::Explanation> explanations(const images::Image& mean,
+                                                                const images::Image& golden) const;
+
+    /// The batches that there are after the next call of `render`.
     [[nodiscard]] std::uint64_t next_batches() const;
 
 private:
