@@ -295,7 +295,6 @@ std::string explain(const Golden& golden, const std::vector<Image>& pictures, do
                                       count(last, standings, true, &Standing::alive);
         if (!undecided && (any_fits || !fitted_undecided)) break;
     }
-    if (getenv("DBG")) for (std::size_t i = 0; i < standings.size(); ++i) if (standings[i].alive) fprintf(stderr, "   %s fits %d p %g det %g enough %g scatter %g %g %g\n", last[i].is.c_str(), standings[i].fits, standings[i].fit.p, standings[i].fit.detectable, enough, standings[i].fit.scatter[0], standings[i].fit.scatter[1], standings[i].fit.scatter[2]);
     for (const bool fitted : {false, true}) {
         std::vector<std::size_t> named;
         for (std::size_t i = 0; i < standings.size(); ++i)

@@ -53,14 +53,24 @@ Mistake best_roulette(const std::vector<RouletteMistake>& roulettes, const PartP
 
     Mistake best;
     double least = std::numeric_limits<double>::infinity();
+    const auto attempt = [&](const RouletteMistake& roulette, int thousandths) {
+        Mistake mistake = roulette.with(thousandths / 1000.0);
+        const double left = left_over(mistake, sums, difference, expected);
+        if (!(left < least) && !best.is.empty()) return false;
+        least = left;
+        best = std::move(mistake);
+        return true;
+    };
+    const RouletteMistake* of = nullptr;
+    int near = 0;
     for (const RouletteMistake& roulette : roulettes)
-        for (int thousandths = 50; thousandths <= 990; ++thousandths) {
-            Mistake mistake = roulette.with(thousandths / 1000.0);
-            const double left = left_over(mistake, sums, difference, expected);
-            if (!(left < least) && !best.is.empty()) continue;
-            least = left;
-            best = std::move(mistake);
-        }
+        for (int thousandths = 50; thousandths <= 990; thousandths += 10)
+            if (attempt(roulette, thousandths)) {
+                of = &roulette;
+                near = thousandths;
+            }
+    for (int thousandths = near - 9; thousandths <= std::min(990, near + 9); ++thousandths)
+        attempt(*of, thousandths);
     return best;
 }
 

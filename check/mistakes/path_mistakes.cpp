@@ -40,7 +40,8 @@ Mistake RouletteMistake::with(double q) const
 {
     std::array<char, 16> text{};
     std::snprintf(text.data(), text.size(), "%.2f", q);
-    Mistake mistake{"one in which a walk survives roulette with probability " + std::string(text.data()) +
+    Mistake mistake{"one in which a walk survives roulette with a probability of about " +
+                        std::string(text.data()) +
                         " " + from + ", and its light is not divided by it",
                     adds};
     for (const Decisions& of : decisions)

@@ -5,73 +5,70 @@
 #include "golden/compare.h"
 #include "ref/transport/bdpt.h"
 #include "ref/transport/renderer.h"
-#include "scenes/read_scene.h"
+#include "tests/check/mistakes/rooms.h"
 #include "tests/check/mistakes/wrong_renderers.h"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <functional>
+#include <algorithm>
+#include <utility>
 
 namespace {
 
 using mistakes_test::WrongPicture;
 
+constexpr int size = 32;   // pixels per side
+constexpr int longest = 3; // edges
+constexpr std::uint32_t samples = 96;
+
 /// A scene with its golden and its explanations.
 class Explained {
 public:
-    struct Plan {
-        const char* scene;
-        int size;    // pixels per side
-        int longest; // edges
-        std::uint64_t golden_batches;
-        std::uint32_t batch_size;
-        std::uint64_t batches; // of the explanations
-    };
-    explicit Explained(const Plan& plan)
-        : scene_(scenes::read_scene(std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "scenes" /
-                                    (std::string(plan.scene) + ".dae"))),
-          world_(scene_, plan.size, plan.size),
-          explanations_(scene_, plan.size, plan.size, {.seed = 3, .max_edges = plan.longest}, 2,
-                        {.batch_samples = static_cast<std::uint32_t>(plan.size * plan.size) * 64,
-                         .first_batches = plan.batches,
-                         .most_batches = plan.batches}),
-          golden_(golden_of(world_, plan))
+    Explained(scenes::Scene scene, double specification)
+        : scene_(std::move(scene)), world_(scene_, size, size),
+          explanations_(scene_, size, size, {.seed = 3, .max_edges = longest}, 2,
+                        {.batch_samples = 8 * size * size,
+                         .first_batches = samples / 8,
+                         .most_batches = samples / 8}),
+          golden_(golden_of(world_))
     {
         explanations_.render();
-        options_.specification = 0.03;
+        options_.specification = specification;
     }
-    [[nodiscard]] static golden::Golden golden_of(const ref::World& world, const Plan& plan)
+    static const Explained& with_mirror()
     {
-        golden::GoldenMaker maker(plan.size, plan.size, 32);
-        images::RenderOptions options;
-        options.seed = 1;
-        options.max_edges = plan.longest;
-        options.batch_size = plan.batch_size;
-        const auto renderer = ref::renderer(world, ref::trace_bidirectionally, options, 2);
-        for (std::uint64_t batch = 0; batch < plan.golden_batches; ++batch)
-            maker.add_batch(renderer->render_batch(batch)->mean);
-        return maker.golden({{"batch_size", std::to_string(plan.batch_size)}});
+        static const Explained instance(mistakes_test::room_with_mirror(), 0.04);
+        return instance;
     }
     [[nodiscard]] const ref::World& world() const { return world_; }
 
-    /// The verdict, and the sentence if it is not PASS.
-    [[nodiscard]] std::pair<golden::Verdict, std::string> diagnosis(const images::Image& picture,
-                                                                    double samples) const
+    /// The verdict, and the diagnosis if it is not PASS.
+    [[nodiscard]] std::pair<golden::Verdict, std::string> diagnosis(const images::Image& picture) const
     {
         const auto verdict = golden::compare_picture(golden_, picture, samples, options_).verdict;
         if (verdict == golden::Verdict::pass) return {verdict, ""};
         bool first = true;
-        return {verdict, golden::explain(
-                             golden_, {picture}, samples,
-                             [&]() -> std::vector<golden::Explanation> {
-                                 if (!std::exchange(first, false)) return {};
-                                 return explanations_.explanations(picture, golden_.mean);
-                             },
-                             options_)};
+        const auto once = [&]() -> std::vector<golden::Explanation> {
+            if (!std::exchange(first, false)) return {};
+            return explanations_.explanations(picture, golden_.mean);
+        };
+        return {verdict, golden::explain(golden_, {picture}, samples, once, options_)};
     }
 
 private:
+    static golden::Golden golden_of(const ref::World& world)
+    {
+        golden::GoldenMaker maker(size, size, 32);
+        images::RenderOptions options;
+        options.seed = 1;
+        options.max_edges = longest;
+        options.batch_size = 1;
+        const auto renderer = ref::renderer(world, ref::trace_bidirectionally, options, 2);
+        for (std::uint64_t batch = 0; batch < 128; ++batch)
+            maker.add_batch(renderer->render_batch(batch)->mean);
+        return maker.golden({{"batch_size", "1"}});
+    }
+
     scenes::Scene scene_;
     ref::World world_;
     check::SceneExplanations explanations_;
@@ -79,28 +76,48 @@ private:
     golden::CompareOptions options_;
 };
 
-TEST(Explore, Matrix)
+/// Expects that every wrong picture gets its own diagnosis; of those in `alike`, together with another one.
+void expect_own_diagnosis(const Explained& explained, const std::vector<WrongPicture>& pictures,
+                          const std::vector<std::string>& alike)
 {
-    const char* scene = std::getenv("SCENE");
-    const int longest = std::atoi(std::getenv("EDGES"));
-    const int samples = std::atoi(std::getenv("SAMPLES"));
-    const Explained explained({scene, 12, longest, 224, 4, static_cast<std::uint64_t>(samples / 64)});
-    std::printf("made\n");
-    std::vector<WrongPicture> all;
-    const auto take = [&](std::vector<WrongPicture> more) {
-        for (auto& picture : more) all.push_back(std::move(picture));
-    };
-    take(mistakes_test::wrong_bidirectional(explained.world(), {.seed = 2, .max_edges = longest + 1},
-                                            samples));
-    take(mistakes_test::wrong_path_tracing(explained.world(), {.seed = 2, .max_edges = longest},
-                                           samples));
-    take(mistakes_test::wrong_refraction(explained.world(), {.seed = 2, .max_edges = longest}, samples));
-    for (const WrongPicture& picture : all) {
-        const auto [verdict, sentence] = explained.diagnosis(picture.image, samples);
-        const bool good = sentence.rfind("Your picture is " + picture.is, 0) == 0;
-        std::printf("%-5s %-12s %-60.60s | %.240s\n", good ? "OK" : sentence.empty() ? "-" : "WRONG",
-                    golden::describe(verdict).c_str(), picture.is.c_str(), sentence.c_str());
+    EXPECT_EQ(explained.diagnosis(pictures.front().image).first, golden::Verdict::pass);
+    for (std::size_t i = 1; i < pictures.size(); ++i) {
+        const auto [verdict, sentence] = explained.diagnosis(pictures[i].image);
+        EXPECT_NE(verdict, golden::Verdict::pass) << pictures[i].is;
+        EXPECT_NE(sentence.find(pictures[i].is), std::string::npos)
+            << pictures[i].is << "\n  got: " << sentence;
+        const bool known_alike = std::ranges::find(alike, pictures[i].is) != alike.end();
+        EXPECT_EQ(sentence.find(", or ") != std::string::npos, known_alike) << sentence;
     }
+}
+
+TEST(SceneExplanations, EachMistakeOfABidirectionalPathTracerGetsItsOwn)
+{
+    const auto& explained = Explained::with_mirror();
+    expect_own_diagnosis(explained,
+                         mistakes_test::wrong_bidirectional(
+                             explained.world(), {.seed = 2, .max_edges = longest + 1}, samples),
+                         {"without the light of emitters that are seen directly",
+                          "one in which emitters that are seen directly count twice",
+                          "one without strategy (s, t) = (0, 4)"});
+}
+
+TEST(SceneExplanations, EachMistakeOfAPathTracerGetsItsOwn)
+{
+    const auto& explained = Explained::with_mirror();
+    expect_own_diagnosis(
+        explained,
+        mistakes_test::wrong_path_tracing(explained.world(), {.seed = 2, .max_edges = longest}, samples),
+        {});
+}
+
+TEST(SceneExplanations, EachMistakeOfRefractionGetsItsOwn)
+{
+    const Explained explained(mistakes_test::room_with_glass(), 0.1);
+    expect_own_diagnosis(
+        explained,
+        mistakes_test::wrong_refraction(explained.world(), {.seed = 2, .max_edges = longest}, samples),
+        {"one in which the power of light walks is scaled"});
 }
 
 } // namespace

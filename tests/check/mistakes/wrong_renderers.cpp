@@ -104,8 +104,6 @@ std::vector<WrongPicture> wrong_bidirectional(const ref::World& world, const ref
     add("", [](const Contribution& c) { return c.weight; });
     all.push_back({"one of paths of up to " + std::to_string(longest + 1) + " edges",
                    [](const Contribution& c, int, int) { return c.weight; }});
-    add("one of paths of up to " + std::to_string(longest - 1) + " edges",
-        [=](const Contribution& c) { return ref::edges(c) < longest ? c.weight : 0.0; });
     add("without the light of emitters that are seen directly",
         [](const Contribution& c) { return ref::edges(c) == 1 ? 0.0 : c.weight; });
     add("one in which emitters that are seen directly count twice",
@@ -151,7 +149,7 @@ std::vector<WrongPicture> wrong_bidirectional(const ref::World& world, const ref
     add("one of weights 1/(s + t - 1) for t >= 2",
         [](const Contribution& c) { return c.t == 1 ? 0.0 : 1.0 / ref::edges(c); });
     const Roulette roulette{0.6, 1};
-    all.push_back({"one in which a walk survives roulette with probability 0.6",
+    all.push_back({"(both walks of bidirectional path tracing), and its light is not divided by it",
                    [=](const Contribution& c, int eye, int light) {
                        return ref::edges(c) <= longest && c.t <= eye && c.s <= light ? c.weight : 0.0;
                    }});
@@ -170,9 +168,9 @@ std::vector<WrongPicture> wrong_path_tracing(const ref::World& world, const ref:
         [](const Contribution&, int, int) { return 1.0; });
     add("one in which hits of emitters and next events have the weight 1/2",
         [](const Contribution& c, int, int) { return ref::edges(c) == 1 ? 1.0 : 0.5; });
-    add("one in which a walk survives roulette with probability 0.7",
+    add("(path tracing, hits and next events weighted), and its light is not divided by it",
         [](const Contribution& c, int eye, int) { return c.t <= eye ? c.weight : 0.0; });
-    return pictures_of(world, options, ref::trace_path, samples, all, {0.7, 2});
+    return pictures_of(world, options, ref::trace_path, samples, all, {0.5, 1});
 }
 
 namespace {

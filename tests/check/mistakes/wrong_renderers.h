@@ -11,16 +11,15 @@
 
 namespace mistakes_test {
 
-/// A picture by a wrong renderer, and how its diagnosis begins after "Your picture is ".
+/// A picture by a wrong renderer, and a part of its diagnosis.
 struct WrongPicture {
     std::string is;
     images::Image image;
-    /// Other diagnoses that are as good: the picture is nearly the same in this scene.
-    std::string or_is = {};
 };
 
-/// Pictures of bidirectional path tracing with mistakes, all of the same samples. The first is right, and
-/// its `is` is empty.
+/// Pictures of bidirectional path tracing with mistakes, all of the same samples. options.max_edges is one
+/// more than a right picture has. The first picture of this and the other functions is right, and its `is`
+/// is empty.
 std::vector<WrongPicture> wrong_bidirectional(const ref::World& world, const ref::PathOptions& options,
                                               std::uint32_t samples);
 
