@@ -145,8 +145,8 @@ JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<s
         return golden::compare_pictures(golden, of);
     };
     golden::Comparison comparison = compared(pictures);
-    comparison.diagnosis = golden::diagnose(golden, comparison, pictures, 0.0, compared,
-                                             of_scene.explain, of_scene.more);
+    comparison.diagnosis =
+        golden::diagnose(golden, comparison, pictures, 0.0, compared, of_scene.explain, of_scene.more);
     images::Film film(golden.mean.width, golden.mean.height);
     for (const images::Image& picture : pictures) film.add_batch(picture);
     return {std::move(comparison), film.mean(), std::move(first.metadata), std::move(first.layers)};

@@ -1,12 +1,12 @@
 #include "cli/compare_transport.h"
 
+#include "check/mistakes/explanations.h"
 #include "cli/golden_render.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/render_metadata.h"
 #include "cli/renderer_for.h"
 #include "cli/scene_input.h"
-#include "check/mistakes/explanations.h"
 #include "golden/camera_faults.h"
 #include "golden/explain.h"
 
@@ -41,7 +41,7 @@ public:
         command_.threads = options.threads;
         command_.quiet = options.quiet;
         command_.device = "host"; // ten times as fast as the reference
-        ++command_.seed; // other noise than the golden's
+        ++command_.seed;          // other noise than the golden's
     }
 
     [[nodiscard]] const RenderCommand& command() const { return command_; }
@@ -147,9 +147,8 @@ private:
 
 } // namespace
 
-SceneMistakes mistakes_of_scene(const golden::Golden& golden,
-                                const std::vector<images::Image>& pictures, double samples,
-                                const CompareCommand& options)
+SceneMistakes mistakes_of_scene(const golden::Golden& golden, const std::vector<images::Image>& pictures,
+                                double samples, const CompareCommand& options)
 {
     if (options.scene.empty()) return {};
     const auto renders = std::make_shared<SceneRenders>(golden, samples, options);

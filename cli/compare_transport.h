@@ -16,11 +16,10 @@ struct SceneMistakes {
     std::vector<golden::MakeFaults> more; // half a pixel aside; the field of view along the other axis
 };
 
-/// For `pictures` of `samples` samples per pixel each (0 if not known: several). No functions if no scene
-/// was given. Throws scenes::SceneError, or std::invalid_argument if it is not the golden's scene. The
-/// functions throw Interrupted; `golden`, `pictures` and `options` must outlive them.
-SceneMistakes mistakes_of_scene(const golden::Golden& golden,
-                                const std::vector<images::Image>& pictures, double samples,
-                                const CompareCommand& options);
+/// For `pictures` of `samples` samples per pixel each (0 if not known: several). No functions if no
+/// scene was given. Throws scenes::SceneError, or std::invalid_argument if it is not the golden's scene.
+/// The functions throw Interrupted; `golden`, `pictures` and `options` must outlive them.
+SceneMistakes mistakes_of_scene(const golden::Golden& golden, const std::vector<images::Image>& pictures,
+                                double samples, const CompareCommand& options);
 
 } // namespace cli

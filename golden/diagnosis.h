@@ -17,8 +17,8 @@ namespace golden {
 /// Judges pictures as the comparison was made that is to be explained.
 using JudgePictures = std::function<Comparison(const std::vector<images::Image>&)>;
 
-/// A sentence that names a mistake of light transport, by renders of the golden's scene (explain.h); empty
-/// if there is none.
+/// A sentence that names a mistake of light transport, by renders of the golden's scene (explain.h);
+/// empty if there is none.
 using Explain = std::function<std::string()>;
 
 /// Makes mistakes that take time to make, such as renders of the golden's scene (camera_faults.h).

@@ -40,9 +40,8 @@ MeanEstimate noise_of(const Golden& golden, const Explanation& explanation, std:
     double variance = 0.0;
     for (int y = region.y0; y < region.y1; ++y)
         for (int x = region.x0; x < region.x1; ++x) {
-            const auto i =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(golden.mean.width) +
-                static_cast<std::size_t>(x);
+            const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(golden.mean.width) +
+                           static_cast<std::size_t>(x);
             const double error =
                 functionals.pixel_weight(functional, channel, i) * explanation.error.pixels[i][c];
             variance += error * error;
@@ -63,7 +62,8 @@ Estimate estimate_of_picture(const Golden& golden, const Image& picture, double 
                              std::size_t functional, std::size_t channel)
 {
     Estimate estimate{{value, reference.variance / batches + extra, reference.count - 1.0},
-                      std::abs(reference.skewness) / std::sqrt(batches), 0.0};
+                      std::abs(reference.skewness) / std::sqrt(batches),
+                      0.0};
     const Scatter shown = scatter(golden, picture, functional, channel);
     estimate.scatter = shown.variance + shown.golden;
     if (!(shown.variance > estimate.value.variance)) return estimate;
@@ -81,7 +81,8 @@ Estimate estimate_of_pictures(const std::vector<double>& values, const MeanEstim
     const Moments shown = moments(values);
     const MeanEstimate mean = mean_estimate(shown);
     return {{mean.mean, mean.variance + noise.variance, welch_degrees(mean, noise)},
-            std::abs(shown.skewness) / std::sqrt(shown.count), 0.0};
+            std::abs(shown.skewness) / std::sqrt(shown.count),
+            0.0};
 }
 
 /// The pictures, to which explanations are fitted.

@@ -1,8 +1,8 @@
 #pragma once
 
 // Which of several mistakes explains a picture? Each mistake is given as what it adds to the light of a
-// right picture, by a render that has noise of its own. docs/comparison.md, section 6, states how often a
-// mistake is named that is not there.
+// right picture, by a render that has noise of its own. docs/comparison.md, section 6, states how often
+// a mistake is named that is not there.
 
 #include "golden/compare_options.h"
 #include "golden/golden.h"

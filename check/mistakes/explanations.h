@@ -26,7 +26,8 @@ inline constexpr std::size_t most_explained_pixels = std::size_t{1} << 18;
 class SceneExplanations {
 public:
     /// `options`: those of the golden, with another seed. `scene` must outlive it. Throws
-    /// std::invalid_argument for pictures of more than most_explained_pixels and the errors of ref::World.
+    /// std::invalid_argument for pictures of more than most_explained_pixels and the errors of
+    /// ref::World.
     SceneExplanations(const scenes::Scene& scene, int width, int height, ref::PathOptions options,
                       unsigned threads, const ExplanationBudget& budget = {});
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// The paths of a right renderer, each with the share that every strategy has in it. What a wrong renderer
-// makes of the same path follows from these shares (path_mistakes.h).
+// The paths of a right renderer, each with the share that every strategy has in it. What a wrong
+// renderer makes of the same path follows from these shares (path_mistakes.h).
 
 #include "ref/transport/mis_weight.h"
 

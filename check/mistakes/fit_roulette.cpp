@@ -29,12 +29,12 @@ double left_over(const Mistake& mistake, const std::map<std::size_t, std::vector
                  std::vector<Rgb> difference, const std::vector<Rgb>& golden)
 {
     for (const auto& [part, times] : mistake.adds)
-        for (std::size_t i = 0; i < difference.size(); ++i)
-            difference[i] -= times * parts.at(part)[i];
+        for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= times * parts.at(part)[i];
     double sum = 0.0;
     for (std::size_t i = 0; i < difference.size(); ++i)
         for (int c = 0; c < 3; ++c)
-            if (golden[i][c] > 0.0) sum += (difference[i][c] / golden[i][c]) * (difference[i][c] / golden[i][c]);
+            if (golden[i][c] > 0.0)
+                sum += (difference[i][c] / golden[i][c]) * (difference[i][c] / golden[i][c]);
     return sum;
 }
 

@@ -41,11 +41,9 @@ Mistake RouletteMistake::with(double q) const
     std::array<char, 16> text{};
     std::snprintf(text.data(), text.size(), "%.2f", q);
     Mistake mistake{"one in which a walk survives roulette with a probability of about " +
-                        std::string(text.data()) +
-                        " " + from + ", and its light is not divided by it",
+                        std::string(text.data()) + " " + from + ", and its light is not divided by it",
                     adds};
-    for (const Decisions& of : decisions)
-        mistake.adds.push_back({of.part, std::pow(q, of.count) - 1.0});
+    for (const Decisions& of : decisions) mistake.adds.push_back({of.part, std::pow(q, of.count) - 1.0});
     return mistake;
 }
 
@@ -137,9 +135,10 @@ void add_weights(Mistakes& mistakes, int longest)
     add("one of weights 1/(s + t)" + impossible, [](const FinishedPath& path) {
         return possible_strategies(path) / static_cast<double>(path.edges() + 1);
     });
-    add("one of weights 1/(s + t + 1)" + impossible + ", t = 0 among them", [](const FinishedPath& path) {
-        return possible_strategies(path) / static_cast<double>(path.edges() + 2);
-    });
+    add("one of weights 1/(s + t + 1)" + impossible + ", t = 0 among them",
+        [](const FinishedPath& path) {
+            return possible_strategies(path) / static_cast<double>(path.edges() + 2);
+        });
     // images::Heuristic::uniform
     add("one of weights 1/(s + t - 1) for s >= 1" + impossible, [=](const FinishedPath& path) {
         if (seen_directly(path)) return is_possible(path, 0);

@@ -1,12 +1,12 @@
 #pragma once
 
-// What usually goes wrong in light transport, as factors of paths. A wrong renderer that makes a path x by
-// the strategies s with weights w_s(x), and multiplies each by an error e_s(x), adds on average
+// What usually goes wrong in light transport, as factors of paths. A wrong renderer that makes a path x
+// by the strategies s with weights w_s(x), and multiplies each by an error e_s(x), adds on average
 //
 //   f(x) sum_s w_s(x) e_s(x)
 //
-// for it instead of f(x). The sum depends on the path alone. So every mistake is what it adds to the light
-// of a right picture, path by path, and one render of a right renderer shows all mistakes at once.
+// for it instead of f(x). The sum depends on the path alone. So every mistake is what it adds to the
+// light of a right picture, path by path, and one render of a right renderer shows all mistakes at once.
 
 #include "check/mistakes/finished_path.h"
 
@@ -26,7 +26,7 @@ struct PartOfMistake {
 };
 
 struct Mistake {
-    std::string is; // completes "Your picture is ..."
+    std::string is;                  // completes "Your picture is ..."
     std::vector<PartOfMistake> adds; // to a right picture
 };
 

@@ -1,16 +1,18 @@
 // Glass without eta^2.
 //
-// Where an eye walk goes from a medium of index n_i into one of n_t, radiance is scaled by (n_i / n_t)^2;
-// the power of a light walk is not [Veach 1997, sec. 5.2]. The factors of a walk multiply to (n of its
-// first edge / n of its last edge)^2. So a mistake shows only by the media in which walks begin and end:
-// with n_eye at the eye, n_light at the emitter, and n_joined on the edge that joins the two walks,
+// Where an eye walk goes from a medium of index n_i into one of n_t, radiance is scaled by (n_i /
+// n_t)^2; the power of a light walk is not [Veach 1997, sec. 5.2]. The factors of a walk multiply to (n
+// of its first edge / n of its last edge)^2. So a mistake shows only by the media in which walks begin
+// and end: with n_eye at the eye, n_light at the emitter, and n_joined on the edge that joins the two
+// walks,
 //
 //   the eye walk is not scaled               its light is (n_joined / n_eye)^2 times right
 //   it is scaled by (n_t / n_i)^2            (n_joined / n_eye)^4
 //   light walks are scaled like eye walks    (n_light / n_joined)^2
 //
-// If both ends and all surfaces that scatter are in air, all three are 1: closed glass hides the mistake.
-// Media belong to a strategy, not only to the path; so its weights decide what a picture looks like.
+// If both ends and all surfaces that scatter are in air, all three are 1: closed glass hides the
+// mistake. Media belong to a strategy, not only to the path; so its weights decide what a picture looks
+// like.
 
 #include "check/mistakes/path_mistakes.h"
 

@@ -1,6 +1,6 @@
 // Roulette that is not compensated: a walk survives a bounce with probability q, and its light is not
-// divided by q. Strategy (s, t) needs t - 2 bounces of the eye walk, after z_1 ... z_{t-2}, and s - 2 of the
-// light walk. Of those from number `first` on, each multiplies the light by q.
+// divided by q. Strategy (s, t) needs t - 2 bounces of the eye walk, after z_1 ... z_{t-2}, and s - 2 of
+// the light walk. Of those from number `first` on, each multiplies the light by q.
 
 #include "check/mistakes/path_mistakes.h"
 
@@ -75,9 +75,8 @@ PathFactor taking(Weights weights, int first, int count)
 
 void add_roulette(Mistakes& mistakes, int longest)
 {
-    const std::size_t not_found = mistakes.add_part(up_to(longest, [](const FinishedPath& path) {
-        return 1.0 - found_by_path_tracing(path);
-    }));
+    const std::size_t not_found = mistakes.add_part(
+        up_to(longest, [](const FinishedPath& path) { return 1.0 - found_by_path_tracing(path); }));
     // The longest eye walk ends by a hit: longest + 1 vertices.
     for (int first = 1; first <= longest - 1; ++first)
         for (const auto& [name, weights, finds_all] : estimators) {

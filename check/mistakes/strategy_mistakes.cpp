@@ -66,12 +66,11 @@ void add_strategies(Mistakes& mistakes, int longest)
         for (std::size_t s = 0; s <= k; ++s) {
             const std::string name =
                 "strategy (s, t) = (" + std::to_string(s) + ", " + std::to_string(k + 1 - s) + ")";
-            add_missing_and_twice(
-                mistakes, "one without " + name + ", whose weights count it",
-                "one in which " + name + " counts twice",
-                mistakes.add_part([k, s](const FinishedPath& path) {
-                    return path.edges() == k ? path.share(s) : 0.0;
-                }));
+            add_missing_and_twice(mistakes, "one without " + name + ", whose weights count it",
+                                  "one in which " + name + " counts twice",
+                                  mistakes.add_part([k, s](const FinishedPath& path) {
+                                      return path.edges() == k ? path.share(s) : 0.0;
+                                  }));
         }
 }
 

@@ -1,5 +1,5 @@
-// Mistakes that are known by noisy renders, on simulated pictures: a lamp in one corner, and light by two
-// kinds of paths.
+// Mistakes that are known by noisy renders, on simulated pictures: a lamp in one corner, and light by
+// two kinds of paths.
 
 #include "golden/explain.h"
 
@@ -43,8 +43,8 @@ protected:
     {
         images::Film film(golden_test::size, golden_test::size);
         for (std::uint64_t batch = 0; batch < from; ++batch)
-            film.add_batch(times(renderer().render(21, batch),
-                                 [=](int x, int y) { return -share(x, y); }));
+            film.add_batch(
+                times(renderer().render(21, batch), [=](int x, int y) { return -share(x, y); }));
         return {is, film.mean(), film.standard_error(), static_cast<double>(from)};
     }
     /// The sentence, and the looks that it took. The first look has `from` batches, each further one
@@ -62,12 +62,12 @@ protected:
             from *= 2;
             return all;
         };
-        std::string sentence = golden::explain(reference(), pictures, samples, more,
-                                               golden_test::for_small_pictures());
+        std::string sentence =
+            golden::explain(reference(), pictures, samples, more, golden_test::for_small_pictures());
         return {std::move(sentence), looks};
     }
-    inline static const std::vector<std::pair<std::string, Share>> both = {{"without the first", first},
-                                                                           {"without the second", second}};
+    inline static const std::vector<std::pair<std::string, Share>> both = {
+        {"without the first", first}, {"without the second", second}};
 };
 
 TEST_F(Explain, NamesTheOneWithoutWhichNoDifferenceIsLeft)
@@ -105,7 +105,8 @@ TEST_F(Explain, FewSamplesAreEnoughForALargeMistake)
     // What is left is known to a few percent with 16 batches, and half of the light is missing.
     const auto [sentence, looks] = explained({lacking(first)}, both, 16);
     EXPECT_LT(looks, 5) << sentence;
-    EXPECT_EQ(sentence.rfind("Your picture is without the first: with this undone, ", 0), 0u) << sentence;
+    EXPECT_EQ(sentence.rfind("Your picture is without the first: with this undone, ", 0), 0u)
+        << sentence;
 }
 
 TEST_F(Explain, NamesTogetherWhatCannotBeToldApart)
@@ -115,9 +116,10 @@ TEST_F(Explain, NamesTogetherWhatCannotBeToldApart)
                   .first,
               "Your picture is without the first, or without nearly the first: with either undone, it "
               "PASSes.");
-    EXPECT_EQ(explained({lacking(first)}, {{"without the first", first}, {"the same", first}}, 256).first,
-              "Your picture is without the first: with this undone, it PASSes. It would be the same if it "
-              "were the same.");
+    EXPECT_EQ(
+        explained({lacking(first)}, {{"without the first", first}, {"the same", first}}, 256).first,
+        "Your picture is without the first: with this undone, it PASSes. It would be the same if it "
+        "were the same.");
     std::vector<std::pair<std::string, Share>> many;
     for (const char* is : {"a", "b", "c", "d"}) many.emplace_back(is, first);
     many[1].second = near_first;
@@ -140,8 +142,10 @@ TEST_F(Explain, AFittedExplanationIsNamedOnlyIfNoOtherFits)
             },
             golden_test::for_small_pictures());
     };
-    EXPECT_EQ(sentence(missing("without the first", first, 256)).rfind("Your picture is without", 0), 0u);
-    EXPECT_EQ(sentence(missing("without the second", second, 256)).rfind("Your picture is fitted", 0), 0u);
+    EXPECT_EQ(sentence(missing("without the first", first, 256)).rfind("Your picture is without", 0),
+              0u);
+    EXPECT_EQ(sentence(missing("without the second", second, 256)).rfind("Your picture is fitted", 0),
+              0u);
 }
 
 } // namespace

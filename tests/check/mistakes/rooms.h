@@ -34,8 +34,8 @@ inline scenes::Scene room_with_mirror()
     return scene;
 }
 
-/// A lamp and a matte ball in a glass ball, in a matte sphere with the camera: light is joined to eye walks
-/// both in glass and in air.
+/// A lamp and a matte ball in a glass ball, in a matte sphere with the camera: light is joined to eye
+/// walks both in glass and in air.
 inline scenes::Scene room_with_glass()
 {
     using scenes::Rgb;
@@ -43,8 +43,7 @@ inline scenes::Scene room_with_glass()
     scenes::Scene scene;
     scene.name = "room with glass";
     scene.materials = {scenes::Lambertian{Rgb(0.7, 0.8, 0.5)}, scenes::Lambertian{Rgb(0.8, 0.6, 0.4)},
-                       scenes::Emission{Rgb(5.0, 4.0, 3.0)},
-                       scenes::Glass{Rgb(1.0), Rgb(1.0), 1.5}};
+                       scenes::Emission{Rgb(5.0, 4.0, 3.0)}, scenes::Glass{Rgb(1.0), Rgb(1.0), 1.5}};
     scene.material_names = {"wall", "ball", "lamp", "glass"};
     scene.spheres = {{Vec3(0.0), 1.0, 0},
                      {Vec3(0.3, 0.3, -0.1), 0.2, 1},

@@ -16,8 +16,8 @@ namespace {
 
 using ref::Contribution;
 
-/// What a contribution counts for; `eye` and `light`: the vertices up to which roulette lets the walks of
-/// this sample live.
+/// What a contribution counts for; `eye` and `light`: the vertices up to which roulette lets the walks
+/// of this sample live.
 struct Alteration {
     std::string is;
     std::function<double(const Contribution&, int eye, int light)> weight;
@@ -124,8 +124,7 @@ std::vector<WrongPicture> wrong_bidirectional(const ref::World& world, const ref
                                                              longest](const Contribution& c) {
             return ref::edges(c) > longest || contains(c);
         };
-        add("one without " + name,
-            [of](const Contribution& c) { return of(c) ? 0.0 : c.weight; });
+        add("one without " + name, [of](const Contribution& c) { return of(c) ? 0.0 : c.weight; });
         add("one in which " + name,
             [of](const Contribution& c) { return of(c) ? 2.0 * c.weight : c.weight; });
     }
@@ -137,7 +136,8 @@ std::vector<WrongPicture> wrong_bidirectional(const ref::World& world, const ref
             add("one in which strategy (s, t) = " + name_of(s, k + 1 - s),
                 [=](const Contribution& c) { return is_it(c) ? 2.0 * c.weight : c.weight; });
         }
-    add("one in which all strategies are added without weights", [](const Contribution&) { return 1.0; });
+    add("one in which all strategies are added without weights",
+        [](const Contribution&) { return 1.0; });
     add("one in which all strategies but the light image are added",
         [](const Contribution& c) { return c.t > 1 ? 1.0 : 0.0; });
     add("one of weights 1/(s + t),", [](const Contribution& c) { return 1.0 / (c.s + c.t); });
@@ -213,7 +213,8 @@ std::vector<WrongPicture> wrong_refraction(const ref::World& world, const ref::P
         {"one in which radiance is not scaled by (eta_i / eta_t)^2 where an eye walk is refracted "
          "(bidirectional)",
          undone, right},
-        {"one in which radiance is scaled by (eta_t / eta_i)^2 instead of (eta_i / eta_t)^2 where an eye "
+        {"one in which radiance is scaled by (eta_t / eta_i)^2 instead of (eta_i / eta_t)^2 where an "
+         "eye "
          "walk is refracted (bidirectional)",
          turned, right},
         {"one in which the power of light walks is scaled", right, scaled}};
@@ -221,18 +222,18 @@ std::vector<WrongPicture> wrong_refraction(const ref::World& world, const ref::P
     const int width = world.camera.width();
     const int height = world.camera.height();
     const auto longest = static_cast<std::size_t>(options.max_edges);
-    for (const Kind& kind : kinds) {
-        WrongPicture picture{kind.is, images::Image(width, height)};
-        const auto add = [&](const std::optional<Contribution>& c) {
-            if (c) picture.image.pixels[c->pixel] += c->weight / samples * c->value;
-        };
-        for (std::uint32_t pixel = 0; pixel < static_cast<std::uint32_t>(width * height); ++pixel)
-            for (std::uint32_t i = 0; i < samples; ++i) {
-                const ref::SampleId id{options.seed, pixel, i};
-                const auto z =
-                    altered(world, ref::eye_subpath(world, options, id, longest + 1), kind.eye);
-                const auto y =
-                    altered(world, ref::light_subpath(world, options, id, longest), kind.light);
+    for (const Kind& kind : kinds) pictures.push_back({kind.is, images::Image(width, height)});
+    for (std::uint32_t pixel = 0; pixel < static_cast<std::uint32_t>(width * height); ++pixel)
+        for (std::uint32_t i = 0; i < samples; ++i) {
+            const ref::SampleId id{options.seed, pixel, i};
+            const auto right_z = ref::eye_subpath(world, options, id, longest + 1);
+            const auto right_y = ref::light_subpath(world, options, id, longest);
+            for (std::size_t j = 0; j < kinds.size(); ++j) {
+                const auto add = [&](const std::optional<Contribution>& c) {
+                    if (c) pictures[j].image.pixels[c->pixel] += c->weight / samples * c->value;
+                };
+                const auto z = altered(world, right_z, kinds[j].eye);
+                const auto y = altered(world, right_y, kinds[j].light);
                 for (std::size_t t = 2; t <= z.size(); ++t) {
                     const std::span eye(z.data(), t);
                     add(ref::emission_hit(world, options, id, eye));
@@ -243,8 +244,7 @@ std::vector<WrongPicture> wrong_refraction(const ref::World& world, const ref::P
                 for (std::size_t s = 1; s <= y.size(); ++s)
                     add(ref::light_image(world, options, {y.data(), s}, z[0]));
             }
-        pictures.push_back(std::move(picture));
-    }
+        }
     return pictures;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Renderers with one mistake each, made in the code that samples: what a strategy adds, how a walk goes on.
-// They share no code with check/mistakes, which derives the pictures from the paths.
+// Renderers with one mistake each, made in the code that samples: what a strategy adds, how a walk goes
+// on. They share no code with check/mistakes, which derives the pictures from the paths.
 
 #include "images/image.h"
 #include "ref/transport/world.h"
@@ -17,9 +17,9 @@ struct WrongPicture {
     images::Image image;
 };
 
-/// Pictures of bidirectional path tracing with mistakes, all of the same samples. options.max_edges is one
-/// more than a right picture has. The first picture of this and the other functions is right, and its `is`
-/// is empty.
+/// Pictures of bidirectional path tracing with mistakes, all of the same samples. options.max_edges is
+/// one more than a right picture has. The first picture of this and the other functions is right, and
+/// its `is` is empty.
 std::vector<WrongPicture> wrong_bidirectional(const ref::World& world, const ref::PathOptions& options,
                                               std::uint32_t samples);
 
