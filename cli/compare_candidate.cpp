@@ -122,8 +122,8 @@ JudgedCandidate judge_batches(const golden::Golden& golden, const std::string& f
 JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<std::string>& files,
                                images::ExrPicture first, const CompareCommand& options)
 {
-    const std::vector<golden::MakeFaults> more = faults_of_scene(golden, 0.0, options);
     std::vector<images::Image> pictures = {first.mean};
+    const SceneMistakes of_scene = mistakes_of_scene(golden, pictures, 0.0, options);
     std::map<std::string, std::string> seeds; // and the file that has it
     images::Metadata metadata = first.metadata;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -145,7 +145,8 @@ JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<s
         return golden::compare_pictures(golden, of);
     };
     golden::Comparison comparison = compared(pictures);
-    comparison.diagnosis = golden::diagnose(golden, comparison, pictures, 0.0, compared, more);
+    comparison.diagnosis =
+        golden::diagnose(golden, comparison, pictures, 0.0, compared, of_scene.explain, of_scene.more);
     images::Film film(golden.mean.width, golden.mean.height);
     for (const images::Image& picture : pictures) film.add_batch(picture);
     return {std::move(comparison), film.mean(), std::move(first.metadata), std::move(first.layers)};
@@ -160,15 +161,16 @@ JudgedCandidate judge_picture(const golden::Golden& golden, const std::string& f
         throw std::invalid_argument(file + ": layer " + options.layer +
                                     " is one batch: give its samples by -s");
     const double samples = samples_of(file, picture.metadata, options);
-    const std::vector<golden::MakeFaults> more = faults_of_scene(golden, samples, options);
+    const std::vector<images::Image> pictures = {picture.mean};
+    const SceneMistakes of_scene = mistakes_of_scene(golden, pictures, samples, options);
     golden::Comparison comparison;
     const auto compared = [&](const std::vector<images::Image>& of) {
         return golden::compare_picture(golden, of.front(), samples);
     };
     try {
-        comparison = compared({picture.mean});
-        comparison.diagnosis =
-            golden::diagnose(golden, comparison, {picture.mean}, samples, compared, more);
+        comparison = compared(pictures);
+        comparison.diagnosis = golden::diagnose(golden, comparison, pictures, samples, compared,
+                                                of_scene.explain, of_scene.more);
     } catch (const std::invalid_argument& error) {
         throw images::ImageError(file, error.what());
     }

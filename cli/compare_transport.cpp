@@ -1,12 +1,14 @@
 #include "cli/compare_transport.h"
 
+#include "check/mistakes/explanations.h"
 #include "cli/golden_render.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/render_metadata.h"
 #include "cli/renderer_for.h"
 #include "cli/scene_input.h"
-#include "golden/transport_faults.h"
+#include "golden/camera_faults.h"
+#include "golden/explain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +32,7 @@ public:
             throw std::invalid_argument("--scene " + options.scene +
                                         ": is not the scene of the golden (" +
                                         value_of(golden.metadata, "scene") + ")");
-        // For each render some 20 seconds of one processor core.
+        // For each render some 5 seconds of one processor core.
         constexpr double most_samples = 1 << 21;
         const double wanted = samples > 0.0 ? samples : static_cast<double>(command_.samples);
         const double per_pixel =
@@ -38,7 +40,8 @@ public:
         command_.samples = whole_batches(per_pixel);
         command_.threads = options.threads;
         command_.quiet = options.quiet;
-        ++command_.seed; // other noise than the golden's
+        command_.device = "host"; // ten times as fast as the reference
+        ++command_.seed;          // other noise than the golden's
     }
 
     [[nodiscard]] const RenderCommand& command() const { return command_; }
@@ -53,27 +56,6 @@ public:
         return film.mean();
     }
 
-    /// The light of paths of up to one edge more than the golden's have; made once.
-    const golden::LightByEdges& light()
-    {
-        if (!light_.empty()) return light_;
-        RenderCommand command = command_;
-        ++command.max_edges;
-        command.strategies = "weighted"; // not a file: it asks for pictures of strategies
-        images::StrategySums sums;
-        render(command, scene_,
-               [&](const images::Batch& batch) { sums.add(batch.strategies, command.batch_size); });
-        const Size size = parse_size(command.size);
-        light_.assign(static_cast<std::size_t>(command.max_edges),
-                      images::Image(size.width, size.height));
-        for (const auto& [strategy, image] : sums.means()) {
-            const auto edges = static_cast<std::size_t>(strategy.first + strategy.second - 1);
-            images::Image& sum = light_.at(edges - 1);
-            for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += image.pixels[i];
-        }
-        return light_;
-    }
-
     [[nodiscard]] std::uint64_t whole_batches(double samples) const
     {
         return command_.batch_size *
@@ -85,7 +67,7 @@ private:
                        const std::function<void(const images::Batch&)>& add)
     {
         const std::uint64_t batches = command.samples / command.batch_size;
-        Progress progress(scene.name + ", to find the mistake", 0.0, static_cast<double>(batches),
+        Progress progress(scene.name + ", another camera", 0.0, static_cast<double>(batches),
                           command.quiet);
         const images::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
         const auto renderer = renderer_for(command, scene);
@@ -94,7 +76,6 @@ private:
 
     RenderCommand command_;
     scenes::Scene scene_;
-    golden::LightByEdges light_;
 };
 
 std::vector<golden::Fault> half_pixel(const SceneRenders& renders)
@@ -121,10 +102,53 @@ std::vector<golden::Fault> field_of_view(const SceneRenders& renders, const imag
     return {golden::rendered_fault(is, wrong, right), golden::ratio_fault(is, wrong)};
 }
 
+/// The mistakes of light transport, rendered until golden::explain is certain.
+class TransportMistakes {
+public:
+    TransportMistakes(const SceneRenders& renders, const golden::Golden& golden,
+                      const std::vector<images::Image>& pictures, double samples)
+        : golden_(golden), pictures_(pictures), samples_(samples), name_(renders.scene().name),
+          quiet_(renders.command().quiet),
+          explanations_(renders.scene(), golden.mean.width, golden.mean.height,
+                        {.seed = renders.command().seed,
+                         .max_edges = renders.command().max_edges,
+                         .roulette = !renders.command().no_roulette},
+                        renders.command().threads)
+    {}
+
+    std::string explain()
+    {
+        images::Film film(golden_.mean.width, golden_.mean.height);
+        for (const images::Image& picture : pictures_) film.add_batch(picture);
+        return golden::explain(golden_, pictures_, samples_, [&] { return more(film.mean()); });
+    }
+
+private:
+    std::vector<golden::Explanation> more(const images::Image& mean)
+    {
+        ++look_;
+        Progress progress(name_ + ", mistakes of light transport, look " + std::to_string(look_), 0.0,
+                          static_cast<double>(explanations_.next_batches()), quiet_);
+        const images::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
+        const bool rendered = explanations_.render(monitor);
+        if (interrupt_requested()) throw Interrupted();
+        return rendered ? explanations_.explanations(mean, golden_.mean)
+                        : std::vector<golden::Explanation>();
+    }
+
+    const golden::Golden& golden_;
+    const std::vector<images::Image>& pictures_;
+    double samples_;
+    std::string name_;
+    bool quiet_;
+    int look_ = 0;
+    check::SceneExplanations explanations_;
+};
+
 } // namespace
 
-std::vector<golden::MakeFaults> faults_of_scene(const golden::Golden& golden, double samples,
-                                                const CompareCommand& options)
+SceneMistakes mistakes_of_scene(const golden::Golden& golden, const std::vector<images::Image>& pictures,
+                                double samples, const CompareCommand& options)
 {
     if (options.scene.empty()) return {};
     const auto renders = std::make_shared<SceneRenders>(golden, samples, options);
@@ -132,10 +156,11 @@ std::vector<golden::MakeFaults> faults_of_scene(const golden::Golden& golden, do
     if (command.integrator != "bdpt" || command.max_edges >= images::most_edges_of_strategies)
         throw std::invalid_argument("--scene needs a golden of bdpt, of paths of fewer than " +
                                     std::to_string(images::most_edges_of_strategies) + " edges");
-    return {
-        [renders] { return golden::transport_faults(renders->light(), renders->command().max_edges); },
-        [renders] { return half_pixel(*renders); },
-        [renders, &golden] { return field_of_view(*renders, golden.mean); }};
+    return {[=, &golden, &pictures] {
+                return TransportMistakes(*renders, golden, pictures, samples).explain();
+            },
+            {[renders] { return half_pixel(*renders); },
+             [renders, &golden] { return field_of_view(*renders, golden.mean); }}};
 }
 
 } // namespace cli

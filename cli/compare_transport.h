@@ -1,6 +1,6 @@
 #pragma once
 
-// Renders of the golden's scene with the mistakes of light transport that `compare --scene` looks for.
+// Renders of the golden's scene with the mistakes that `compare --scene` looks for.
 
 #include "cli/compare_command.h"
 #include "golden/diagnosis.h"
@@ -10,13 +10,16 @@
 
 namespace cli {
 
-/// The mistakes of `options.scene`, the golden's scene, to be tried in this order, each group with the
-/// renders that it needs: paths of some lengths that are missing or too many, half a pixel aside, the
-/// field of view along the other axis. `samples`: per pixel of the candidate, which the renders have as
-/// well, but for large pictures; 0 if not known: the golden's. None if no scene was given. Throws
-/// scenes::SceneError, or std::invalid_argument if it is not the golden's scene. The groups throw
-/// Interrupted, and `golden` must outlive them.
-std::vector<golden::MakeFaults> faults_of_scene(const golden::Golden& golden, double samples,
-                                                const CompareCommand& options);
+/// Looks for mistakes with renders of `options.scene`, the golden's scene.
+struct SceneMistakes {
+    golden::Explain explain;              // mistakes of light transport (check/mistakes)
+    std::vector<golden::MakeFaults> more; // half a pixel aside; the field of view along the other axis
+};
+
+/// For `pictures` of `samples` samples per pixel each (0 if not known: several). No functions if no
+/// scene was given. Throws scenes::SceneError, or std::invalid_argument if it is not the golden's scene.
+/// The functions throw Interrupted; `golden`, `pictures` and `options` must outlive them.
+SceneMistakes mistakes_of_scene(const golden::Golden& golden, const std::vector<images::Image>& pictures,
+                                double samples, const CompareCommand& options);
 
 } // namespace cli

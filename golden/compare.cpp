@@ -30,7 +30,7 @@ double golden_needed(const Golden& golden, const CompareOptions& options)
     for (std::size_t c = 0; c < channel_count; ++c) {
         const Moments whole = moments(values_of(golden.reference, golden.functionals, 0, c));
         if (whole.count < 2.0 || !(whole.mean > 0.0)) continue;
-        factor = std::max(factor, judge.reach(mean_estimate(whole), 0, c).golden);
+        factor = std::max(factor, judge.compared(mean_estimate(whole), 0, c).reach.golden);
     }
     return factor;
 }

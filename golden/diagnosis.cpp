@@ -62,22 +62,26 @@ std::optional<std::string> first_of(const std::vector<Fault>& faults, const Gold
     return std::nullopt;
 }
 
-std::optional<std::string> constant_factor(const Golden& golden,
-                                           const std::vector<images::Image>& pictures, double samples,
-                                           const JudgePictures& judge)
+/// The sum of the pictures' values over that of the golden; none if that is no factor.
+std::optional<double> factor_of(const Golden& golden, const std::vector<images::Image>& pictures)
 {
-    const std::string everywhere = " times the golden everywhere: divided by it, it PASSes.";
     double sum = 0.0;
     for (const images::Image& picture : pictures)
         sum += sum_of(picture) / static_cast<double>(pictures.size());
     const double factor = sum / sum_of(golden.mean);
-    if (!(factor > 0.0) || !std::isfinite(factor)) return std::nullopt;
+    return factor > 0.0 && std::isfinite(factor) ? std::optional(factor) : std::nullopt;
+}
+
+constexpr const char* everywhere = " times the golden everywhere: divided by it, it PASSes.";
+
+/// The sentence for a factor that has a name.
+std::optional<std::string> known_factor(double factor, const std::vector<images::Image>& pictures,
+                                        double samples, const JudgePictures& judge)
+{
     for (const KnownFactor& known : known_factors(samples))
         if (std::abs(factor / known.value - 1.0) < 0.1 &&
             passes(scaled(pictures, 1.0 / known.value), judge))
             return "Your picture is " + say(known.value, 4) + " = " + known.name + everywhere;
-    if (passes(scaled(pictures, 1.0 / factor), judge))
-        return "Your picture is " + say(factor, 4) + everywhere;
     return std::nullopt;
 }
 
@@ -85,13 +89,23 @@ std::optional<std::string> constant_factor(const Golden& golden,
 
 std::string diagnose(const Golden& golden, const Comparison& comparison,
                      const std::vector<images::Image>& pictures, double samples,
-                     const JudgePictures& judge, const std::vector<MakeFaults>& more)
+                     const JudgePictures& judge, const Explain& explain,
+                     const std::vector<MakeFaults>& more)
 {
     const bool wrong = comparison.verdict == Verdict::fail ||
                        (comparison.verdict == Verdict::inconclusive && comparison.p < diagnosis_level);
     if (!wrong || pictures.empty()) return "";
     if (const auto usual = first_of(usual_faults(), golden, pictures, judge)) return *usual;
-    if (const auto factor = constant_factor(golden, pictures, samples, judge)) return *factor;
+    const std::optional<double> factor = factor_of(golden, pictures);
+    if (factor)
+        if (const auto known = known_factor(*factor, pictures, samples, judge)) return *known;
+    const std::string explained = explain ? explain() : "";
+    if (factor && passes(scaled(pictures, 1.0 / *factor), judge)) {
+        if (!explained.empty())
+            return explained + " It is as well " + say(*factor, 4) + " times the golden everywhere.";
+        return "Your picture is " + say(*factor, 4) + everywhere;
+    }
+    if (!explained.empty()) return explained;
     for (const MakeFaults& make : more)
         if (const auto found = first_of(make(), golden, pictures, judge)) return *found;
     return "";

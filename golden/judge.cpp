@@ -94,12 +94,25 @@ Finding Judge::judge(const MeanEstimate& candidate, double skewed, std::size_t f
     return finding;
 }
 
-Reach Judge::reach(const MeanEstimate& candidate, std::size_t functional, std::size_t channel) const
+Finding Judge::compared(const MeanEstimate& candidate, std::size_t functional,
+                        std::size_t channel) const
 {
     Finding finding = blank(functional, channel);
     const Moments reference = moments(values_of(golden_.reference, functionals_, functional, channel));
     compare_means(finding, candidate, reference, 0.0, 1.0);
-    return finding.reach;
+    return finding;
+}
+
+std::optional<double> Judge::adjusted_p(const MeanEstimate& candidate, double skewed,
+                                        const Moments& reference, std::size_t functional,
+                                        std::size_t channel) const
+{
+    const Finding finding = blank(functional, channel);
+    const double golden_skewed = std::abs(reference.skewness) / std::sqrt(reference.count);
+    if (std::max(skewed, golden_skewed) > options_.skewness) return std::nullopt;
+    const MeanEstimate expected = mean_estimate(reference);
+    const double tolerance = options_.rounding * size_of(finding, expected.mean);
+    return bonferroni(welch(candidate, expected, tolerance).p, multiplicity_.of(finding.region.kind));
 }
 
 Finding Judge::blank(std::size_t functional, std::size_t channel) const

@@ -11,6 +11,7 @@
 #include "golden/statistics.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace golden {
@@ -38,9 +39,16 @@ public:
     [[nodiscard]] Finding judge(const MeanEstimate& candidate, double skewed, std::size_t functional,
                                 std::size_t channel, const images::Film& picture) const;
 
-    /// What errors of the whole picture a candidate of this estimator finds. Method::welch.
-    [[nodiscard]] Reach reach(const MeanEstimate& candidate, std::size_t functional,
-                              std::size_t channel) const;
+    /// The errors that an estimate of the functional finds: `detectable`, and `reach` of the whole
+    /// picture. Nothing is tested.
+    [[nodiscard]] Finding compared(const MeanEstimate& candidate, std::size_t functional,
+                                   std::size_t channel) const;
+
+    /// The adjusted p-value of the same test, without ratio and detectable error, which take longer;
+    /// none if it is not conclusive. `reference`: the moments of the golden's functional.
+    [[nodiscard]] std::optional<double> adjusted_p(const MeanEstimate& candidate, double skewed,
+                                                   const Moments& reference, std::size_t functional,
+                                                   std::size_t channel) const;
 
 private:
     [[nodiscard]] Finding blank(std::size_t functional, std::size_t channel) const;

@@ -1,7 +1,6 @@
 #pragma once
 
-// What is usually wrong with the light transport of a renderer, and how to undo it with further renders
-// of the golden's scene.
+// Mistakes of the camera that take further renders of the golden's scene to undo.
 
 #include "golden/faults.h"
 #include "images/image.h"
@@ -22,15 +21,6 @@ Fault rendered_fault(std::string is, images::Image wrong, images::Image right);
 /// black the result is black, which the sum above is not by noise; but it is brighter by the square of
 /// the relative noise of `wrong`.
 Fault ratio_fault(std::string is, images::Image wrong);
-
-/// The light of a scene by the number of edges of its paths: [k - 1] is that of k edges.
-using LightByEdges = std::vector<images::Image>;
-
-/// Mistakes in which paths of some lengths are missing or too many. `longest`: edges of the golden's
-/// longest paths; `light` has one length more, and `longest` + 1 as size. In the order in which they are
-/// tried: emitters that are seen directly are black, or twice as bright; direct light alone, none, or
-/// twice; every path but those of one edge twice; one edge less or more in the longest path.
-std::vector<Fault> transport_faults(const LightByEdges& light, int longest);
 
 /// The picture was taken half a pixel aside, in one or both directions: samples are at the corners of
 /// pixels, for example. `fine`: the golden's scene with twice the pixels in both directions. First with

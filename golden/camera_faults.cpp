@@ -1,9 +1,8 @@
-#include "golden/transport_faults.h"
+#include "golden/camera_faults.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace golden {
 
@@ -11,17 +10,6 @@ namespace {
 
 using images::Image;
 using images::Rgb;
-
-bool is_black(const Image& image)
-{
-    return std::all_of(image.pixels.begin(), image.pixels.end(),
-                       [](const Rgb& pixel) { return pixel == Rgb(0.0); });
-}
-
-void add(Image& sum, const Image& image, double factor = 1.0)
-{
-    for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += factor * image.pixels[i];
-}
 
 /// Gives blocks of this size that have a negative value their mean, unless that is negative. Returns
 /// whether any value is still negative.
@@ -75,11 +63,6 @@ Image halved(const Image& fine, int dx, int dy)
     return result;
 }
 
-std::string edges(int number)
-{
-    return std::to_string(number) + (number == 1 ? " edge" : " edges");
-}
-
 } // namespace
 
 Fault rendered_fault(std::string is, Image wrong, Image right)
@@ -113,45 +96,6 @@ Fault ratio_fault(std::string is, Image wrong)
                     }
                 return std::optional(std::move(result));
             }};
-}
-
-std::vector<Fault> transport_faults(const LightByEdges& light, int longest)
-{
-    if (longest < 1 || light.size() != static_cast<std::size_t>(longest) + 1)
-        throw std::invalid_argument("light of another number of lengths");
-    const Image none(light[0].width, light[0].height);
-    /// The sum of the lengths from `first` to `last`, times `factor`.
-    const auto sum = [&](int first, int last, double factor = 1.0) {
-        Image image = none;
-        for (int k = first; k <= last; ++k) add(image, light[static_cast<std::size_t>(k - 1)], factor);
-        return image;
-    };
-    std::vector<Fault> faults;
-    const auto lacks = [&](const std::string& is, int first, int last) {
-        if (const Image image = sum(first, last); first <= last && !is_black(image))
-            faults.push_back(rendered_fault(is, none, image));
-    };
-    const auto has_twice = [&](const std::string& is, int first, int last) {
-        if (const Image image = sum(first, last); first <= last && !is_black(image))
-            faults.push_back(rendered_fault(is, sum(first, last, 2.0), image));
-    };
-    lacks("without the light of emitters that are seen directly (paths of 1 edge)", 1, 1);
-    has_twice("one in which emitters that are seen directly count twice (paths of 1 edge)", 1, 1);
-    lacks("one of direct light alone (paths of up to 2 edges)", 3, longest);
-    if (longest >= 2) {
-        lacks("without direct light (paths of 2 edges)", 2, 2);
-        has_twice("one in which direct light counts twice (paths of 2 edges)", 2, 2);
-    }
-    if (longest >= 3)
-        has_twice(
-            "one in which all light counts twice but for emitters that are seen directly, as if hits "
-            "of emitters and next events were added without weights",
-            2, longest);
-    const std::string limit = ", where the golden's have up to " + edges(longest);
-    if (longest >= 4) lacks("one of paths of up to " + edges(longest - 1) + limit, longest, longest);
-    faults.push_back(rendered_fault("one of paths of up to " + edges(longest + 1) + limit,
-                                    sum(longest + 1, longest + 1), none));
-    return faults;
 }
 
 std::vector<Fault> half_pixel_faults(const Image& fine)

@@ -1,6 +1,6 @@
-// Mistakes that only further renders of the golden's scene can undo.
+// Mistakes of the camera, which only further renders of the golden's scene can undo.
 
-#include "golden/transport_faults.h"
+#include "golden/camera_faults.h"
 
 #include "golden/compare.h"
 #include "golden/diagnosis.h"
@@ -31,124 +31,6 @@ std::string first_without_which(const golden::JudgePictures& judge, const golden
         if (const auto undone = fault.undo(picture, golden.mean); undone && passes(*undone))
             return fault.is;
     return "";
-}
-
-/// The simulated picture as the sum of paths of 1 to 4 edges, and a fifth length that is not part of it.
-class TransportFaults : public golden_test::SimulatedGolden {
-protected:
-    static constexpr std::uint64_t batches = 256;
-    static constexpr double samples = 4.0 * batches;
-    static constexpr int longest = 4;
-
-    /// The share of paths of `edges` edges in the light of a pixel: a lamp that is seen in one corner,
-    /// and less direct light to the right and below.
-    static double share(int edges, int x, int y)
-    {
-        constexpr double edge = golden_test::size - 1;
-        const bool lamp = x < 8 && y < 6;
-        if (edges == 1) return lamp ? 0.9 : 0.0;
-        const double rest = lamp ? 0.1 : 1.0;
-        const double direct = 0.4 + 0.4 * (edge - x) / edge;
-        const double third = (1.0 - direct) * (0.4 + 0.3 * y / edge);
-        const std::array<double, 4> shares = {direct, third, 1.0 - direct - third,
-                                              0.03 + 0.05 * x / edge};
-        return rest * shares.at(static_cast<std::size_t>(edges - 2));
-    }
-    /// `image` with each pixel times `factor` of its place.
-    template <class Factor>
-    static Image times(Image image, const Factor& factor)
-    {
-        for (int y = 0; y < image.height; ++y)
-            for (int x = 0; x < image.width; ++x) image.at(x, y) *= factor(x, y);
-        return image;
-    }
-    /// As our renderer makes it: other noise than the candidate's.
-    static const std::vector<golden::Fault>& faults()
-    {
-        static const std::vector<golden::Fault> instance = [] {
-            const Image whole = picture(batches, 21);
-            golden::LightByEdges light;
-            for (int k = 1; k <= longest + 1; ++k)
-                light.push_back(times(whole, [&](int x, int y) { return share(k, x, y); }));
-            return golden::transport_faults(light, longest);
-        }();
-        return instance;
-    }
-    static golden::Comparison judged(const std::vector<Image>& pictures)
-    {
-        return golden::compare_picture(reference(), pictures.at(0), samples,
-                                       golden_test::for_small_pictures());
-    }
-    /// A picture in which paths of k edges count weights[k - 1] times.
-    static Image weighted(const std::array<double, 5>& weights)
-    {
-        static const Image whole = picture(batches, 6);
-        return times(whole, [&](int x, int y) {
-            double sum = 0.0;
-            for (int k = 1; k <= longest + 1; ++k)
-                sum += weights.at(static_cast<std::size_t>(k - 1)) * share(k, x, y);
-            return sum;
-        });
-    }
-    static std::string name_of(const std::array<double, 5>& weights)
-    {
-        return first_without_which(judged, reference(), weighted(weights), faults());
-    }
-};
-
-TEST_F(TransportFaults, ADiagnosisNamesThem)
-{
-    const auto diagnosis = [](const Image& image) {
-        return golden::diagnose(reference(), judged({image}), {image}, samples, judged,
-                                {[] { return std::vector<golden::Fault>(); }, faults});
-    };
-    EXPECT_EQ(diagnosis(weighted({1, 1, 1, 1, 0})), ""); // right
-    EXPECT_EQ(diagnosis(weighted({0, 1, 1, 1, 0})),
-              "Your picture is without the light of emitters that are seen directly (paths of 1 edge): "
-              "with this undone, it PASSes.");
-}
-
-TEST_F(TransportFaults, LightThatIsMissingOrTwiceIsNamed)
-{
-    const auto expect = [](const std::array<double, 5>& weights, const std::string& part) {
-        EXPECT_EQ(name_of(weights).substr(0, part.size()), part);
-    };
-    expect({0, 1, 1, 1, 0}, "without the light of emitters that are seen directly");
-    expect({2, 1, 1, 1, 0}, "one in which emitters that are seen directly count twice");
-    expect({1, 1, 0, 0, 0}, "one of direct light alone");
-    expect({1, 0, 1, 1, 0}, "without direct light");
-    expect({1, 2, 1, 1, 0}, "one in which direct light counts twice");
-    expect({1, 2, 2, 2, 0},
-           "one in which all light counts twice but for emitters that are seen directly");
-    expect({1, 1, 1, 0, 0}, "one of paths of up to 3 edges, where the golden's have up to 4");
-    expect({1, 1, 1, 1, 1}, "one of paths of up to 5 edges, where the golden's have up to 4");
-}
-
-TEST_F(TransportFaults, WrongPicturesOfAnotherKindGetNone)
-{
-    for (const std::array<double, 5>& weights : {std::array<double, 5>{1, 1, 0.5, 1, 0},
-                                                 {1, 0.5, 1, 1, 0},
-                                                 {1, 1, 0, 1, 0},
-                                                 {0.5, 1, 1, 1, 0},
-                                                 {0, 0, 1, 1, 0}}) {
-        EXPECT_NE(judged({weighted(weights)}).verdict, golden::Verdict::pass);
-        EXPECT_EQ(name_of(weights), "");
-    }
-}
-
-TEST(TransportFaultsOfALength, LightThatIsBlackMakesNoMistake)
-{
-    const Image black(2, 2);
-    Image grey(2, 2);
-    for (Rgb& pixel : grey.pixels) pixel = Rgb(0.5);
-    const auto faults = golden::transport_faults({black, grey, black}, 2);
-    std::vector<std::string> names;
-    for (const golden::Fault& fault : faults)
-        if (fault.undo(grey, grey)) names.push_back(fault.is);
-    EXPECT_EQ(names,
-              (std::vector<std::string>{"without direct light (paths of 2 edges)",
-                                        "one in which direct light counts twice (paths of 2 edges)"}));
-    EXPECT_THROW(golden::transport_faults({black, grey}, 2), std::invalid_argument);
 }
 
 TEST(RenderedFault, AddsTheDifferenceAndSpreadsNegativeLight)

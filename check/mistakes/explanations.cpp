@@ -1,0 +1,81 @@
+#include "check/mistakes/explanations.h"
+
+#include "check/mistakes/fit_roulette.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace check {
+
+namespace {
+
+using images::Image;
+
+ref::PathOptions with_one_edge_more(ref::PathOptions options)
+{
+    ++options.max_edges;
+    return options;
+}
+
+std::uint32_t samples_per_pixel(int width, int height, const ExplanationBudget& budget)
+{
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    if (pixels > most_explained_pixels)
+        throw std::invalid_argument("pictures of more than " + std::to_string(most_explained_pixels) +
+                                    " pixels are too large to look for mistakes of light transport");
+    return static_cast<std::uint32_t>((budget.batch_samples + pixels - 1) / pixels);
+}
+
+} // namespace
+
+SceneExplanations::SceneExplanations(const scenes::Scene& scene, int width, int height,
+                                     ref::PathOptions options, unsigned threads,
+                                     const ExplanationBudget& budget)
+    : longest_(options.max_edges), budget_(budget), world_(scene, width, height),
+      mistakes_(usual_mistakes(scene, options.max_edges)),
+      pictures_(world_, with_one_edge_more(options), mistakes_.parts,
+                samples_per_pixel(width, height, budget), threads)
+{}
+
+std::uint64_t SceneExplanations::next_batches() const
+{
+    const std::uint64_t now = pictures_.batches();
+    return now == 0 ? budget_.first_batches : std::min(2 * now, budget_.most_batches);
+}
+
+bool SceneExplanations::render(const images::Monitor& monitor)
+{
+    return pictures_.batches() < budget_.most_batches && pictures_.render(next_batches(), monitor);
+}
+
+std::vector<golden::Explanation> SceneExplanations::explanations(const Image& mean,
+                                                                 const Image& golden) const
+{
+    std::vector<golden::Explanation> all;
+    for (const Mistake& mistake : mistakes_.mistakes) all.push_back(explanation(mistake));
+    if (mistakes_.roulettes.empty()) return all;
+    all.push_back(explanation(best_roulette(mistakes_.roulettes, pictures_, mean, golden)));
+    all.back().fitted = true;
+    return all;
+}
+
+golden::Explanation SceneExplanations::explanation(const Mistake& mistake) const
+{
+    const images::Film& first = pictures_.of(mistake.adds.front().part);
+    const Image none(first.mean().width, first.mean().height);
+    golden::Explanation result{mistake.is, none, none, static_cast<double>(first.batches())};
+    for (const auto& [part, times] : mistake.adds) {
+        const Image& mean = pictures_.of(part).mean();
+        const Image error = pictures_.of(part).standard_error();
+        for (std::size_t i = 0; i < none.pixels.size(); ++i) {
+            result.adds.pixels[i] += times * mean.pixels[i];
+            // The parts are of the same paths: their errors may all have the same sign.
+            result.error.pixels[i] += std::abs(times) * error.pixels[i];
+        }
+    }
+    return result;
+}
+
+} // namespace check
