@@ -94,8 +94,7 @@ Finding Judge::judge(const MeanEstimate& candidate, double skewed, std::size_t f
     return finding;
 }
 
-Finding Judge::compared(const MeanEstimate& candidate, std::size_t functional,
-                        std::size_t channel) const
+Finding Judge::compared(const MeanEstimate& candidate, std::size_t functional, std::size_t channel) const
 {
     Finding finding = blank(functional, channel);
     const Moments reference = moments(values_of(golden_.reference, functionals_, functional, channel));
