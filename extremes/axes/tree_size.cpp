@@ -56,7 +56,7 @@ std::string reason_to_leave_out(const AnyBuilder& builder, double n)
 {
     const auto gib = [](double bytes) { return scenes::short_number(bytes * 0x1p-30) + " GiB"; };
     const double needed = n * bytes_of_build(builder);
-    if (const double free = free_memory(); needed > free)
+    if (const double free = free_memory(); needed > 0.9 * free) // others need some meanwhile
         return "needs " + gib(needed) + " of memory, and " + gib(free) + " are free";
     if (builder == AnyBuilder(ref::Builder::sah) && n > most_boxes_of_sweep)
         return "the sweep takes minutes";

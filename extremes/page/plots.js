@@ -115,5 +115,7 @@ function addLegend(axis, place) {
   const seen = Object.keys(failureColors).filter(k => methodsOf(axis).some(m => pointsOf(m).some(p => p.failures?.[k] > 0)));
   const list = element("ul", { class: "legend" });
   for (const kind of seen) list.append(element("li", {}, element("i", { style: `background:${failureColors[kind]}` }), kind));
-  if (seen.length) place.append(list);
+  if (methodsOf(axis).some(m => pointsOf(m).some(p => p.not_walked)))
+    list.append(element("li", {}, element("i", { class: "unwalked" }), "not walked"));
+  if (list.children.length) place.append(list);
 }
