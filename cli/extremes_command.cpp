@@ -81,22 +81,32 @@ void print_list(const std::vector<WalkedAxis>& axes)
     }
 }
 
-/// The points that are missing: axis, method and parameter.
+/// Points that are missing: methods of an axis at a parameter. Several only if they share exact answers.
 struct Missing {
     WalkedAxis* axis;
-    WalkedAxis::Of* of;
+    std::vector<WalkedAxis::Of*> of;
     double parameter;
 };
 
 std::vector<Missing> missing_points(std::vector<WalkedAxis>& walked)
 {
     std::vector<Missing> missing;
-    for (WalkedAxis& axis : walked)
-        for (WalkedAxis::Of& of : axis.methods)
-            for (const double parameter : axis.axis.values)
-                if (std::ranges::find(of.points, parameter, &extremes::Point::parameter) ==
-                    of.points.end())
-                    missing.push_back({&axis, &of, parameter});
+    const auto is_missing = [](const WalkedAxis::Of& of, double parameter) {
+        return std::ranges::find(of.points, parameter, &extremes::Point::parameter) == of.points.end();
+    };
+    for (WalkedAxis& axis : walked) {
+        if (axis.axis.shared_truth)
+            for (const double parameter : axis.axis.values) {
+                Missing together{&axis, {}, parameter};
+                for (WalkedAxis::Of& of : axis.methods)
+                    if (is_missing(of, parameter)) together.of.push_back(&of);
+                if (!together.of.empty()) missing.push_back(together);
+            }
+        else
+            for (WalkedAxis::Of& of : axis.methods)
+                for (const double parameter : axis.axis.values)
+                    if (is_missing(of, parameter)) missing.push_back({&axis, {&of}, parameter});
+    }
     return missing;
 }
 
@@ -135,21 +145,26 @@ ExitStatus extremes_command(const ExtremesCommand& options, const std::string& c
     };
     const std::vector<Missing> missing = missing_points(walked);
     const std::size_t total = all_points(walked);
-    std::size_t done = total - missing.size();
+    std::size_t done = total;
+    for (const Missing& points : missing) done -= points.of.size();
     bool stopped = false;
     {
         Progress progress("extremes", static_cast<double>(done), static_cast<double>(total),
                           options.quiet);
         auto kept = std::chrono::steady_clock::now();
-        for (const Missing& point : missing) {
-            const auto tally =
-                extremes::visit(point.axis->axis, point.of->method, point.parameter, walk);
-            stopped = !tally;
+        for (const Missing& at : missing) {
+            std::vector<const extremes::Method*> methods;
+            for (const WalkedAxis::Of* of : at.of) methods.push_back(&of->method);
+            const auto tallies = extremes::visit(at.axis->axis, methods, at.parameter, walk);
+            stopped = !tallies;
             if (stopped) break;
-            auto& points = point.of->points;
-            points.push_back(extremes::point_of(point.parameter, *tally));
-            std::ranges::sort(points, {}, &extremes::Point::parameter);
-            progress.update(static_cast<double>(++done));
+            for (std::size_t i = 0; i < methods.size(); ++i) {
+                auto& points = at.of[i]->points;
+                points.push_back(extremes::point_of(at.parameter, (*tallies)[i]));
+                std::ranges::sort(points, {}, &extremes::Point::parameter);
+            }
+            done += methods.size();
+            progress.update(static_cast<double>(done));
             if (std::chrono::steady_clock::now() - kept < std::chrono::seconds(10)) continue;
             keep(); // for a power cut
             kept = std::chrono::steady_clock::now();

@@ -43,6 +43,11 @@ struct Limit {
     double beyond;       // a parameter farther out, at which ...
     Failure failure;     // ... some of 10,000 cases fail in this way
     std::string because; // why this is the limit: one line
+
+    // Where cases take so long that a test cannot go there, and only a walk does (contradiction(), in
+    // point.h, holds both sides of the limit to it):
+    double tested = std::numeric_limits<double>::quiet_NaN(); // tests go up to here; NaN: to `safe`
+    bool beyond_takes_long = false;                           // no test goes to `beyond`
 };
 
 struct Axis {
@@ -58,6 +63,7 @@ struct Axis {
     std::vector<Method> methods;
     std::vector<Limit> limits;   // of methods by their names, at most two of each: below and above
     int most_cases = 1'000'000;  // where a case is large: at each point no more than this
+    bool shared_truth = false;   // methods that are visited together compute exact answers once
     std::string derivation = {}; // of the bounds: a paragraph for docs/extremes.md
 };
 

@@ -5,63 +5,73 @@
 
 #include "scenes/scene.h"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
-
-#include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace extremes {
 
-using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>,
-                                            boost::multiprecision::et_off>;
+/// A number of sixty digits: boost::multiprecision::cpp_bin_float<60>. Its headers take seconds to
+/// compile, so that only exact.cpp includes them; here is room for one.
+class Exact {
+public:
+    Exact() : Exact(0) {}
+    Exact(int value);
+    Exact(double value);
+    explicit Exact(std::uint64_t value);
+    static Exact pi();
+    Exact(const Exact& other);
+    Exact& operator=(const Exact& other);
+
+    Exact& operator+=(const Exact& other);
+    Exact& operator-=(const Exact& other);
+    Exact& operator*=(const Exact& other);
+    Exact& operator/=(const Exact& other);
+    friend Exact operator+(Exact a, const Exact& b) { return a += b; }
+    friend Exact operator-(Exact a, const Exact& b) { return a -= b; }
+    friend Exact operator*(Exact a, const Exact& b) { return a *= b; }
+    friend Exact operator/(Exact a, const Exact& b) { return a /= b; }
+    friend Exact operator-(const Exact& a) { return Exact(0) - a; }
+
+    /// -1, 0 or 1, as a is less than, equal to or greater than b.
+    friend int compare(const Exact& a, const Exact& b);
+    friend bool operator==(const Exact& a, const Exact& b) { return compare(a, b) == 0; }
+    friend bool operator<(const Exact& a, const Exact& b) { return compare(a, b) < 0; }
+    friend bool operator>(const Exact& a, const Exact& b) { return compare(a, b) > 0; }
+    friend bool operator<=(const Exact& a, const Exact& b) { return compare(a, b) <= 0; }
+    friend bool operator>=(const Exact& a, const Exact& b) { return compare(a, b) >= 0; }
+
+    friend Exact abs(const Exact& a);
+    friend Exact sqrt(const Exact& a);
+    friend Exact tan(const Exact& a);
+    /// Rounded to nearest.
+    [[nodiscard]] double to_double() const;
+
+private:
+    struct Access; // to the number in `room_`
+    alignas(16) std::byte room_[64];
+};
 
 struct ExactVec3 {
     Exact x, y, z;
 
     ExactVec3() = default;
-    ExactVec3(Exact x_, Exact y_, Exact z_) : x(std::move(x_)), y(std::move(y_)), z(std::move(z_)) {}
+    ExactVec3(const Exact& x_, const Exact& y_, const Exact& z_) : x(x_), y(y_), z(z_) {}
     explicit ExactVec3(const scenes::Vec3& v) : x(v.x), y(v.y), z(v.z) {}
 };
 
-inline ExactVec3 operator+(const ExactVec3& a, const ExactVec3& b)
-{
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline ExactVec3 operator-(const ExactVec3& a, const ExactVec3& b)
-{
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline ExactVec3 operator*(const Exact& s, const ExactVec3& v)
-{
-    return {s * v.x, s * v.y, s * v.z};
-}
-inline Exact dot(const ExactVec3& a, const ExactVec3& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline ExactVec3 cross(const ExactVec3& a, const ExactVec3& b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline Exact length(const ExactVec3& v)
-{
-    return sqrt(dot(v, v));
-}
+ExactVec3 operator+(const ExactVec3& a, const ExactVec3& b);
+ExactVec3 operator-(const ExactVec3& a, const ExactVec3& b);
+ExactVec3 operator*(const Exact& s, const ExactVec3& v);
+Exact dot(const ExactVec3& a, const ExactVec3& b);
+ExactVec3 cross(const ExactVec3& a, const ExactVec3& b);
+Exact length(const ExactVec3& v);
 
-inline scenes::Vec3 in_doubles(const ExactVec3& v)
-{
-    return {v.x.convert_to<double>(), v.y.convert_to<double>(), v.z.convert_to<double>()};
-}
+scenes::Vec3 in_doubles(const ExactVec3& v);
 
 /// `v`, which must not be 0, scaled to unit length and rounded.
-inline scenes::Vec3 rounded_unit(const ExactVec3& v)
-{
-    return in_doubles((1 / length(v)) * v);
-}
+scenes::Vec3 rounded_unit(const ExactVec3& v);
 
 /// |computed - truth| / |truth|, rounded to double. `truth` must not be 0.
-inline double relative_error(double computed, const Exact& truth)
-{
-    return abs((Exact(computed) - truth) / truth).convert_to<double>();
-}
+double relative_error(double computed, const Exact& truth);
 
 } // namespace extremes

@@ -13,8 +13,9 @@ bool Point::failed() const
 
 Point point_of(double parameter, const Tally& tally)
 {
-    Point point{parameter, tally.cases(),   tally.errors(), tally.quantile(0.5), tally.largest(),
-                {},        tally.refusal(), tally.notice()};
+    Point point{parameter,           tally.cases(),   tally.errors(),
+                tally.quantile(0.5), tally.largest(), {},
+                tally.refusal(),     tally.notice(),  tally.cases() == 0 ? tally.left_out() : ""};
     for (std::size_t kind = 0; kind < failure_kinds; ++kind)
         point.failures.at(kind) = tally.failures(static_cast<Failure>(kind));
     return point;
@@ -23,11 +24,11 @@ Point point_of(double parameter, const Tally& tally)
 std::optional<SafeRange> safe_range(const Axis& axis, std::span<const Point> points)
 {
     const auto ordinary = std::ranges::find(points, axis.ordinary, &Point::parameter);
-    if (ordinary == points.end() || ordinary->failed()) return std::nullopt;
+    if (ordinary == points.end() || !ordinary->safe()) return std::nullopt;
     auto first = ordinary;
     auto last = ordinary;
-    while (first != points.begin() && !(first - 1)->failed()) --first;
-    while (last + 1 != points.end() && !(last + 1)->failed()) ++last;
+    while (first != points.begin() && (first - 1)->safe()) --first;
+    while (last + 1 != points.end() && (last + 1)->safe()) ++last;
     return SafeRange{first->parameter, last->parameter};
 }
 
@@ -47,8 +48,12 @@ std::string contradiction(const Axis& axis, const Limit& limit, std::span<const 
 {
     const auto [from, to] = std::minmax(axis.ordinary, limit.safe);
     for (const Point& point : points) {
-        if (point.parameter < from || point.parameter > to) continue;
         const std::string where = " at " + scenes::short_number(point.parameter);
+        if (point.cases == 0) continue;
+        if (point.parameter == limit.beyond &&
+            point.failures.at(static_cast<std::size_t>(limit.failure)) == 0)
+            return "no case fails" + where + ", beyond the limit: " + std::string(name(limit.failure));
+        if (point.parameter < from || point.parameter > to) continue;
         for (std::size_t kind = 0; kind < failure_kinds; ++kind)
             if (point.failures.at(kind) > 0)
                 return std::to_string(point.failures.at(kind)) + " of " + std::to_string(point.cases) +

@@ -19,8 +19,11 @@ struct Point {
     double median = 0.0, largest = 0.0;                  // of the errors; 0 if there are none
     std::array<std::uint64_t, failure_kinds> failures{}; // counts by kind
     std::string refusal, notice;                         // the first of each; empty if there is none
+    std::string not_walked;                              // why there are no cases; empty if there are
 
     [[nodiscard]] bool failed() const;
+    /// Whether there are cases, and none failed.
+    [[nodiscard]] bool safe() const { return cases > 0 && !failed(); }
 };
 
 Point point_of(double parameter, const Tally& tally);
@@ -40,7 +43,8 @@ std::optional<double> first_failure(const Axis& axis, std::span<const Point> poi
                                     bool above);
 
 /// What contradicts `limit` in the points of its method, for people: a failure or an error above the
-/// bound between axis.ordinary and limit.safe. Empty if nothing does.
+/// bound between axis.ordinary and limit.safe, or that the stated failure does not occur at
+/// limit.beyond. Empty if nothing does. Points that were not walked say nothing.
 std::string contradiction(const Axis& axis, const Limit& limit, std::span<const Point> points);
 
 } // namespace extremes

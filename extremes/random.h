@@ -44,6 +44,9 @@ public:
         return {r * std::cos(phi), r * std::sin(phi), z};
     }
 
+    /// Whether both give the same numbers from now on.
+    friend bool operator==(const Random&, const Random&) = default;
+
 private:
     std::mt19937_64 engine_;
 };

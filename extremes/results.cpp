@@ -19,9 +19,10 @@ Json json_of(const Point& point)
     for (std::size_t kind = 0; kind < failure_kinds; ++kind)
         if (point.failures.at(kind) > 0)
             failures[std::string(failure_names.at(kind))] = point.failures.at(kind);
-    return {{"parameter", point.parameter}, {"cases", point.cases},     {"errors", point.errors},
-            {"median", point.median},       {"largest", point.largest}, {"failures", failures},
-            {"refusal", point.refusal},     {"notice", point.notice}};
+    return {
+        {"parameter", point.parameter}, {"cases", point.cases},     {"errors", point.errors},
+        {"median", point.median},       {"largest", point.largest}, {"failures", failures},
+        {"refusal", point.refusal},     {"notice", point.notice},   {"not_walked", point.not_walked}};
 }
 
 Point point_from(const Json& json)
@@ -34,6 +35,7 @@ Point point_from(const Json& json)
     json.at("largest").get_to(point.largest);
     json.at("refusal").get_to(point.refusal);
     json.at("notice").get_to(point.notice);
+    json.at("not_walked").get_to(point.not_walked);
     for (const auto& [name, count] : json.at("failures").items()) {
         const auto kind = failure_of(name);
         if (!kind) throw std::invalid_argument("it has an unknown failure, " + name);
@@ -154,10 +156,11 @@ void restore(const Json& json, const Description& description, std::vector<Walke
                     for (WalkedAxis::Of& of : into.methods) {
                         if (method.at("name") != of.method.name) continue;
                         for (const Json& point : method.at("points"))
-                            if (std::ranges::find(into.axis.values,
-                                                  point.at("parameter").get<double>()) !=
-                                into.axis.values.end())
-                                of.points.push_back(point_from(point));
+                            if (Point read = point_from(point);
+                                read.cases > 0 && // else it may be possible now
+                                std::ranges::find(into.axis.values, read.parameter) !=
+                                    into.axis.values.end())
+                                of.points.push_back(std::move(read));
                     }
             }
     } catch (const nlohmann::json::exception& error) {

@@ -12,7 +12,7 @@ namespace {
 
 using Line = std::vector<std::string>;
 
-/// "leaked at 1e6; refused at 1e-9"
+/// "leaked at 1e6; refused at 1e-9"; and where the walk left something out.
 std::string first_failures_of(const Json& method, double ordinary)
 {
     std::string text;
@@ -26,6 +26,10 @@ std::string first_failures_of(const Json& method, double ordinary)
             text += (text.empty() ? "" : "; ") + kind + " at " + scenes::short_number(parameter);
         }
     }
+    for (const Json& point : method.at("points"))
+        if (const std::string why = point.at("not_walked"); !why.empty())
+            text += (text.empty() ? "none; " : "; ") + std::string("not walked at ") +
+                    scenes::short_number(point.at("parameter")) + ": " + why;
     return text.empty() ? "none" : text;
 }
 
@@ -117,7 +121,7 @@ std::string largest_bound(const Json& limit)
 std::string section(const Json& axis)
 {
     const std::string axis_name = axis.at("name");
-    std::string text = "## " + std::to_string(axis.at("number").get<int>()) + ". " +
+    std::string text = "### " + std::to_string(axis.at("number").get<int>()) + ". " +
                        axis.at("title").get<std::string>() + " (`" + axis_name + "`)\n\n" +
                        axis.at("about").get<std::string>() +
                        "\n\n![Errors and failures: " + axis.at("title").get<std::string>() +

@@ -38,6 +38,11 @@ void Tally::notice(const std::string& message)
     if (notice_.empty()) notice_ = message;
 }
 
+void Tally::leave_out(const std::string& reason)
+{
+    if (left_out_.empty()) left_out_ = reason;
+}
+
 Tally& Tally::operator+=(const Tally& other)
 {
     cases_ += other.cases_;
@@ -47,6 +52,7 @@ Tally& Tally::operator+=(const Tally& other)
     largest_ = std::max(largest_, other.largest_);
     if (refusal_.empty()) refusal_ = other.refusal_;
     if (notice_.empty()) notice_ = other.notice_;
+    if (left_out_.empty()) left_out_ = other.left_out_;
     return *this;
 }
 

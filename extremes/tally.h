@@ -23,6 +23,8 @@ public:
     void refuse(const std::string& message);
     /// A notice that the program gives about this point before it computes; the first one is kept.
     void notice(const std::string& message);
+    /// Nothing is computed at this point, for this reason: no case is added. The first reason is kept.
+    void leave_out(const std::string& reason);
     Tally& operator+=(const Tally& other);
 
     [[nodiscard]] std::uint64_t cases() const { return cases_; }
@@ -39,9 +41,10 @@ public:
     /// The error that the share `q` of the errors does not exceed, up to the width of a bin; 0 if
     /// there are none. 0 <= q <= 1.
     [[nodiscard]] double quantile(double q) const;
-    /// The first refusal and the first notice; empty if there are none.
+    /// The first refusal, notice and reason to leave out; empty if there are none.
     [[nodiscard]] const std::string& refusal() const { return refusal_; }
     [[nodiscard]] const std::string& notice() const { return notice_; }
+    [[nodiscard]] const std::string& left_out() const { return left_out_; }
 
 private:
     static constexpr int bins_per_decade = 16;
@@ -56,6 +59,7 @@ private:
     double largest_ = 0.0;
     std::string refusal_;
     std::string notice_;
+    std::string left_out_;
 };
 
 } // namespace extremes

@@ -26,14 +26,15 @@ std::uint64_t mixed(std::uint64_t a, std::uint64_t b)
 
 } // namespace
 
-std::optional<Tally> visit(const Axis& axis, const Method& method, double parameter,
-                           const WalkOptions& options)
+std::optional<std::vector<Tally>> visit(const Axis& axis, std::span<const Method* const> methods,
+                                        double parameter, const WalkOptions& options)
 {
     const int cases = std::min(options.cases, axis.most_cases);
     const int chunks = (cases + cases_of_chunk - 1) / cases_of_chunk;
     const std::uint64_t seed = mixed(mixed(options.seed, static_cast<std::uint64_t>(axis.number)),
                                      std::bit_cast<std::uint64_t>(parameter));
-    std::vector<Tally> tallies(static_cast<std::size_t>(chunks));
+    std::vector<std::vector<Tally>> tallies(static_cast<std::size_t>(chunks),
+                                            std::vector<Tally>(methods.size()));
     std::atomic<int> next = 0;
     std::atomic<bool> stopped = false;
     std::mutex mutex; // of stop() and of `thrown`
@@ -48,9 +49,12 @@ std::optional<Tally> visit(const Axis& axis, const Method& method, double parame
             const int chunk = next++;
             if (chunk >= chunks) return;
             try {
-                Random random(mixed(seed, static_cast<std::uint64_t>(chunk)));
-                method.run(parameter, random, std::min(cases_of_chunk, cases - chunk * cases_of_chunk),
-                           tallies[static_cast<std::size_t>(chunk)]);
+                for (std::size_t i = 0; i < methods.size(); ++i) {
+                    Random random(mixed(seed, static_cast<std::uint64_t>(chunk)));
+                    methods[i]->run(parameter, random,
+                                    std::min(cases_of_chunk, cases - chunk * cases_of_chunk),
+                                    tallies[static_cast<std::size_t>(chunk)][i]);
+                }
             } catch (...) {
                 const std::lock_guard lock(mutex);
                 thrown = std::current_exception();
@@ -66,9 +70,18 @@ std::optional<Tally> visit(const Axis& axis, const Method& method, double parame
     }
     if (thrown) std::rethrow_exception(thrown);
     if (stopped) return std::nullopt;
-    Tally sum;
-    for (const Tally& tally : tallies) sum += tally;
-    return sum;
+    std::vector<Tally> sums(methods.size());
+    for (const std::vector<Tally>& chunk : tallies)
+        for (std::size_t i = 0; i < methods.size(); ++i) sums[i] += chunk[i];
+    return sums;
+}
+
+std::optional<Tally> visit(const Axis& axis, const Method& method, double parameter,
+                           const WalkOptions& options)
+{
+    const Method* const one = &method;
+    const auto tallies = visit(axis, std::span(&one, 1), parameter, options);
+    return tallies ? std::optional(tallies->front()) : std::nullopt;
 }
 
 std::vector<double> powers_of_ten(double from, double to, double step)

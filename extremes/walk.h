@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace extremes {
 
@@ -22,5 +24,10 @@ struct WalkOptions {
 /// options.stop() returned true before all were done. What `method` throws is passed on.
 std::optional<Tally> visit(const Axis& axis, const Method& method, double parameter,
                            const WalkOptions& options);
+
+/// The same for several methods, a tally for each. Every thread runs them one after the other on the
+/// same cases, as Axis::shared_truth needs.
+std::optional<std::vector<Tally>> visit(const Axis& axis, std::span<const Method* const> methods,
+                                        double parameter, const WalkOptions& options);
 
 } // namespace extremes

@@ -4,13 +4,13 @@ namespace extremes {
 
 std::vector<Axis> all_axes()
 {
-    return {scale_axis(),        distance_axis(),   far_camera_axis(),     far_light_axis(),
-            sliver_axis(),       area_axis(),       sphere_ratio_axis(),   sphere_floor_axis(),
-            near_surface_axis(), grazing_axis(),    grazing_hit_axis(),    gap_axis(),
-            ior_near_1_axis(),   ior_axis(),        critical_angle_axis(), fov_narrow_axis(),
-            fov_wide_axis(),     radiance_axis(),   emitter_size_axis(),   albedo_axis(),
-            tree_size_axis(),    coincident_axis(), key_bits_axis(),       outlier_axis(),
-            samples_axis()};
+    return {scale_axis(),        distance_axis(),     far_camera_axis(),     far_light_axis(),
+            sliver_axis(),       area_axis(),         sphere_ratio_axis(),   sphere_floor_axis(),
+            near_surface_axis(), grazing_axis(),      grazing_hit_axis(),    gap_axis(),
+            ior_near_1_axis(),   ior_axis(),          critical_angle_axis(), fov_narrow_axis(),
+            fov_wide_axis(),     radiance_axis(),     emitter_size_axis(),   albedo_axis(),
+            tree_size_axis(),    coincident_axis(),   key_bits_axis(),       outlier_axis(),
+            samples_axis(),      equal_samples_axis()};
 }
 
 } // namespace extremes

@@ -81,6 +81,7 @@ Axis area_axis()
     axis.logarithmic = true;
     axis.values = powers_of_ten(-18, -2, 0.5);
     axis.methods = leave_methods(small_triangle);
+    axis.shared_truth = true;
     const std::string because =
         "rounding moves the ray and the triangle against each other by more than the triangle's width";
     // A ray that is aimed at a weight of 0.1 or more passes the edges at 0.1 times the height, 1.5 s, or

@@ -31,5 +31,6 @@ Axis radiance_axis();
 Axis emitter_size_axis();
 Axis albedo_axis();
 Axis samples_axis();
+Axis equal_samples_axis();
 
 } // namespace extremes

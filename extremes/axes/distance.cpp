@@ -37,6 +37,7 @@ Axis distance_axis()
     axis.logarithmic = true;
     axis.values = powers_of_ten(0, 16, 0.5);
     axis.methods = leave_methods(distant);
+    axis.shared_truth = true;
     // Spacing of doubles at the largest coordinate, at most D + 1.15, over the diagonal, at least the
     // longest edge, which is 1.63 less twice sqrt(3) 0.15, or 1.1: below 1e-3 for D < 5.0e12. The scene
     // is refused for sure if the coordinate D / sqrt(3) over a diagonal of sqrt(3) 2.3 reaches it.

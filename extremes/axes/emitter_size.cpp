@@ -1,79 +1,20 @@
 // An emitter so small that it is nearly a point, with the same power.
 
 #include "extremes/axes/axes.h"
+#include "extremes/light/shadow_tricks.h"
 #include "extremes/light/small_render.h"
+#include "extremes/light/under_emitter.h"
 
 #include "scenes/placed.h"
 
-#include <glm/geometric.hpp>
-
 #include <cmath>
-#include <numbers>
-#include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace extremes {
 
 namespace {
 
 constexpr int samples_of_emitter = 256; // of the one pixel
-constexpr double fov_of_emitter = 1e-7; // the pixel sees nearly a point
-constexpr double albedo_under_emitter = 0.5;
-
-/// A square floor around a point, and over it an emitter.
-struct UnderEmitter {
-    scenes::Scene scene;
-    double radiance; // that the eye sees: of the floor in the middle
-};
-
-/// A square of the given size at a distance of 0.5 to 0.85 from the middle of the floor, at least 30
-/// degrees above the horizon, turned away by up to 60 degrees. Its power is pi watts: radiance 1 /
-/// size^2.
-UnderEmitter under_square(double size, Random& random)
-{
-    const auto any_frame = [&](const scenes::Vec3& z) {
-        const scenes::Vec3 x = glm::normalize(glm::cross(z, random.direction()));
-        return std::pair(x, glm::cross(z, x));
-    };
-    const auto within = [&](const scenes::Vec3& axis, double least_cosine) {
-        const double cosine = random.between(least_cosine, 1.0);
-        return cosine * axis + std::sqrt(1 - cosine * cosine) * any_frame(axis).first;
-    };
-    const scenes::Vec3 up = random.direction();
-    const auto [east, north] = any_frame(up);
-    const scenes::Vec3 middle = 0.1 * random.direction();
-    const scenes::Vec3 towards = within(up, 0.5);
-    const double distance = random.between(0.5, 0.85);
-    const scenes::Vec3 normal = within(-towards, 0.5);
-    const auto [right, above] = any_frame(normal);
-
-    UnderEmitter under;
-    scenes::Scene& scene = under.scene;
-    scene.name = "emitter";
-    scene.materials = {scenes::Lambertian{scenes::Rgb(albedo_under_emitter)},
-                       scenes::Emission{scenes::Rgb(1 / (size * size))}};
-    scene.material_names = {"floor", "lamp"};
-    const auto add_square_at = [&](const scenes::Vec3& center, const scenes::Vec3& x,
-                                   const scenes::Vec3& y, std::uint32_t material) {
-        const auto corner = [&](double a, double b) { return center + a * x + b * y; };
-        scene.triangles.push_back({{corner(-1, -1), corner(1, -1), corner(1, 1)}, material});
-        scene.triangles.push_back({{corner(-1, -1), corner(1, 1), corner(-1, 1)}, material});
-    };
-    add_square_at(middle, 0.35 * east, 0.35 * north, 0);
-    const scenes::Vec3 lamp = middle + distance * towards;
-    add_square_at(lamp, 0.5 * size * right, 0.5 * size * above, 1);
-    // The eye is on the other side of the vertical.
-    const scenes::Vec3 backward = glm::normalize(up - 0.5 * (towards - glm::dot(towards, up) * up));
-    const scenes::Vec3 to_right = glm::normalize(glm::cross(any_frame(backward).first, backward));
-    scene.camera = scenes::Camera{middle + 0.6 * backward,        to_right,
-                                  glm::cross(backward, to_right), backward,
-                                  scenes::FovAxis::horizontal,    fov_of_emitter};
-    // rho / pi L A cos cos' / d^2: of a point. The mean over the square differs by less than 8 size^2.
-    under.radiance = albedo_under_emitter * std::numbers::inv_pi * glm::dot(towards, up) *
-                     -glm::dot(towards, normal) / (distance * distance);
-    return under;
-}
 
 auto emitter_size_cases(Format wing, images::Integrator integrator)
 {
@@ -134,14 +75,19 @@ Axis emitter_size_axis()
     axis.name = "emitter-size";
     axis.title = "Size of an emitter of constant power";
     axis.parameter = "size of the emitter, relative to its distance";
-    axis.about = "A small square emitter, turned at random, over a square floor; its radiance is pi "
-                 "watts through its "
-                 "area. A case is the mean of 256 samples of one point of the floor. Every sample sees "
-                 "nearly the "
-                 "same light, so there is hardly any noise. The error is that of the radiance, relative "
-                 "to itself. "
-                 "The truth is that of a point: albedo / pi times power / pi times both cosines over "
-                 "squared distance.";
+    axis.about =
+        "A small square emitter, turned at random, over a square floor; its radiance is pi watts "
+        "through "
+        "its area. A case is the mean of 256 samples of one point of the floor. Every sample sees "
+        "nearly "
+        "the same light, so there is hardly any noise. The error is that of the radiance, relative to "
+        "itself. The truth is that of a point: albedo / pi times power / pi times both cosines over "
+        "squared distance. With the usual tricks, which keep a shadow ray off the surfaces at both of "
+        "its "
+        "ends, each sample is a textbook estimate of direct light. The tricks agree, because the ends "
+        "are "
+        "far apart; only excluding differs, where the end is rounded into the neighbouring triangle of "
+        "the emitter, which then shadows it.";
     axis.ordinary = 1e-4;
     axis.logarithmic = true;
     axis.values = powers_of_ten(-20, -2, 0.5);
@@ -152,6 +98,7 @@ Axis emitter_size_axis()
         {"host, path", Format::binary32, emitter_size_cases(Format::binary32, images::Integrator::path)},
         {"host, bdpt", Format::binary32,
          emitter_size_cases(Format::binary32, images::Integrator::bdpt)}};
+    for (Method& trick : shadow_tricks(samples_of_emitter)) axis.methods.push_back(std::move(trick));
     for (const char* integrator : {"path", "bdpt"}) {
         const std::string name = integrator;
         const std::string because = "the corners of the emitter are rounded to 2^-24 (2^-53 in double) "

@@ -29,7 +29,7 @@ auto far_camera_cases(EyeTracer trace)
                 if (!met[i])
                     tally.add(Failure::missed);
                 else
-                    tally.add(length(ExactVec3(*met[i] / unit) - far.targets[i]).convert_to<double>());
+                    tally.add(length(ExactVec3(*met[i] / unit) - far.targets[i]).to_double());
         }
     };
 }

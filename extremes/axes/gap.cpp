@@ -76,6 +76,7 @@ Axis gap_axis()
     axis.logarithmic = true;
     axis.values = powers_of_ten(-18, -1, 0.5);
     axis.methods = leave_methods(gap_case);
+    axis.shared_truth = true;
     const std::string because = "light starts at a distance from the surface that covers all roundings "
                                 "there: where the gap is smaller, it starts beyond the second surface";
     // Steps 1 to 3 of bound.h, along the normal alone: the computed position is off by sqrt(3) (7 a + M)

@@ -111,6 +111,7 @@ Axis grazing_axis()
     axis.logarithmic = true;
     axis.values = powers_of_ten(-20, -1, 0.5);
     axis.methods = leave_methods(leaving_flat);
+    axis.shared_truth = true;
     const std::string because =
         "a computed normal, and a direction, are off by about one unit in the last "
         "place: below that angle it is not known to which side the light goes";
@@ -142,6 +143,7 @@ Axis grazing_hit_axis()
                  "truth follows "
                  "exactly from the coordinates and directions, which are doubles.";
     axis.methods = leave_methods(arriving_flat);
+    axis.shared_truth = true;
     const std::string because = "an error of the height moves the meeting point by that error over the "
                                 "angle: there it is 1% of the scene";
     axis.limits = {{"ref", 1e-12, [](double x) { return bound_of_arriving_flat(Format::binary64, x); },

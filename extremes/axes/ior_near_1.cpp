@@ -26,7 +26,7 @@ GlassCase nearly_air(double parameter, Random& random)
     }
     const Exact eta = outside ? 1 / (1 + excess) : 1 + excess;
     const Exact difference = eta * eta - 1;
-    const double quarter = 0.25 * difference.convert_to<double>();
+    const double quarter = 0.25 * difference.to_double();
     Exact cos2_t;
     switch (random.below(4)) {
     case 0:

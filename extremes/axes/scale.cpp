@@ -41,6 +41,7 @@ Axis scale_axis()
         axis.values.push_back(std::pow(10.0, k));
     std::ranges::sort(axis.values);
     axis.methods = leave_methods(scaled);
+    axis.shared_truth = true;
     const auto ref = [](double) { return bound_in_tetrahedron(Format::binary64, tetrahedron_extent); };
     const auto host = [](double) { return bound_in_tetrahedron(Format::binary32, tetrahedron_extent); };
     const std::string above = "a coordinate of the file, up to 1.15 times the radius, must be a double: "

@@ -119,6 +119,7 @@ Axis sliver_axis()
     axis.logarithmic = true;
     axis.values = powers_of_ten(0, 17, 0.5);
     axis.methods = leave_methods(tube_case);
+    axis.shared_truth = true;
     const std::string because = "coordinates are rounded in proportion to the length of a needle, and "
                                 "errors count in proportion "
                                 "to its width";

@@ -29,9 +29,8 @@ TwoRays sphere_over_sphere(double ratio, Random& random)
     const scenes::Vec3 below =
         2.5 * x + random.between(-1, 1) * glm::cross(up, x) + random.between(-0.5, 0.5) * x;
     rays.first_point = point_of_sphere(floor, ExactVec3(below) - ExactVec3(floor.center));
-    const scenes::Vec3 from(rays.first_point.x.convert_to<double>(),
-                            rays.first_point.y.convert_to<double>(),
-                            rays.first_point.z.convert_to<double>());
+    const scenes::Vec3 from(rays.first_point.x.to_double(), rays.first_point.y.to_double(),
+                            rays.first_point.z.to_double());
     const scenes::Vec3 normal = glm::normalize(from - floor.center);
     switch (random.below(3)) {
     case 0: // to the sphere
@@ -126,7 +125,9 @@ Axis sphere_floor_axis()
     axis.values = powers_of_ten(1, 16, 0.5);
     axis.most_cases = 50'000; // a scene and its tree each
     axis.methods = methods_of_two_rays(sphere_over_sphere);
-    for (Method& trick : leave_tricks(leaving_sphere_floor)) axis.methods.push_back(std::move(trick));
+    for (Method& trick : leave_tricks(leaving_sphere_floor, false))
+        axis.methods.push_back(std::move(trick));
+    axis.shared_truth = true;
     const std::string because =
         "near the floor coordinates and distances from its centre are rounded to 2^-24 (2^-53 in "
         "double) "

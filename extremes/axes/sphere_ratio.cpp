@@ -1,6 +1,8 @@
 // A small sphere beside a large one.
 
 #include "extremes/axes/axes.h"
+#include "extremes/leave/leave_case.h"
+#include "extremes/leave/shapes.h"
 #include "extremes/spheres/sphere_rays.h"
 
 #include <glm/geometric.hpp>
@@ -59,6 +61,24 @@ TwoRays small_beside_large(double ratio, Random& random)
     return rays;
 }
 
+/// The same for the usual tricks: the light always goes through the small sphere.
+LeaveCase leaving_small_sphere(double ratio, Random& random, int rays)
+{
+    LeaveCase result{grey_scene(), {}, 0.5 / ratio};
+    const scenes::Vec3 to_eye = random.direction();
+    const scenes::Sphere small{1.25 * direction_near(to_eye, 0.7, random), 0.5 / ratio, 0};
+    result.scene.spheres = {{0.01 * random.direction(), 0.5, 0}, small};
+    const scenes::Vec3 eye = 4.0 * to_eye;
+    while (static_cast<int>(result.rays.size()) < rays) {
+        const scenes::Vec3 normal = direction_near(glm::normalize(eye - small.center), 0.7, random);
+        scenes::Vec3 other = random.direction();
+        if (glm::dot(other, normal) > 0) other = -other;
+        result.rays.push_back({eye, direction_between(eye, small.center + small.radius * normal), 1,
+                               glm::normalize(other - normal)});
+    }
+    return result;
+}
+
 // Lengths are multiples of the radius r of the small sphere; the ratio is k. The eye is 8 k from the
 // centre of the large sphere and D <= 6.5 k from the small one. To first order in u:
 //
@@ -93,12 +113,16 @@ Axis sphere_ratio_axis()
         "diameters away, is aimed at the small sphere, and a second ray goes on from there: through the "
         "small sphere, as in glass, or to the large one, or away from both. The error is the distance "
         "of a point that is met from the true one, relative to the radius of its sphere. The truth is "
-        "the points themselves, which the rays would meet without rounding.";
+        "the points themselves, which the rays would meet without rounding. With the usual tricks the "
+        "light always goes through the small sphere, and the error is that of the distance it goes.";
     axis.ordinary = 1;
     axis.logarithmic = true;
     axis.values = powers_of_ten(0, 16, 0.5);
     axis.most_cases = 50'000; // a scene and its tree each
     axis.methods = methods_of_two_rays(small_beside_large);
+    for (Method& trick : leave_tricks(leaving_small_sphere, false))
+        axis.methods.push_back(std::move(trick));
+    axis.shared_truth = true;
     const std::string because =
         "the centre of the small sphere, the eye and the start of the second ray "
         "are rounded to 2^-24 (2^-53 in double) of a large number";

@@ -3,8 +3,6 @@
 #include "cuda/scene/scene_arrays.h"
 #include "ref/transport/camera.h"
 
-#include <boost/math/constants/constants.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,7 +32,7 @@ ExactFrame random_frame(Random& random)
 
 scenes::Vec3 rounded(const ExactVec3& v)
 {
-    return {v.x.convert_to<double>(), v.y.convert_to<double>(), v.z.convert_to<double>()};
+    return {v.x.to_double(), v.y.to_double(), v.z.to_double()};
 }
 
 /// A point of the film, in pixels from the top left corner; or a pixel, if `size` is 1.
@@ -46,8 +44,8 @@ struct FilmPlace {
 double distance_to(const FilmPlace& place, const Exact& x, const Exact& y)
 {
     const auto along = [&](double from, const Exact& at) {
-        return std::max({0.0, (Exact(from) - at).convert_to<double>(),
-                         (at - Exact(from + place.size)).convert_to<double>()});
+        return std::max(
+            {0.0, (Exact(from) - at).to_double(), (at - Exact(from + place.size)).to_double()});
     };
     return std::hypot(along(place.x, x), along(place.y, y));
 }
@@ -171,14 +169,14 @@ auto camera_cases(FieldOfView (*field)(double))
 
 FieldOfView narrow_field(double degrees)
 {
-    const Exact half = Exact(degrees) * boost::math::constants::pi<Exact>() / 360;
-    return {tan(half), (2 * half).convert_to<double>()};
+    const Exact half = Exact(degrees) * Exact::pi() / 360;
+    return {tan(half), (2 * half).to_double()};
 }
 
 FieldOfView wide_field(double less_than_180_degrees)
 {
-    const Exact half = Exact(less_than_180_degrees) * boost::math::constants::pi<Exact>() / 360;
-    return {1 / tan(half), (boost::math::constants::pi<Exact>() - 2 * half).convert_to<double>()};
+    const Exact half = Exact(less_than_180_degrees) * Exact::pi() / 360;
+    return {1 / tan(half), (Exact::pi() - 2 * half).to_double()};
 }
 
 std::vector<Method> camera_methods(FieldOfView (*field)(double))

@@ -39,7 +39,7 @@ FarLight far_light(double distance, Random& random)
         const Exact d2 = dot(d, d);
         // The shadow of the sphere; points at its edge are left out.
         const ExactVec3 off = cross(ExactVec3(sphere.center) - p, d);
-        const double miss = sqrt(dot(off, off) / d2).convert_to<double>() / sphere.radius;
+        const double miss = sqrt(dot(off, off) / d2).to_double() / sphere.radius;
         if (std::abs(miss - 1) < 1e-3) continue;
         point.lit = miss > 1;
         const ExactVec3 n = cross(e1, e2);

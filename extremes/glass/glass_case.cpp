@@ -47,19 +47,19 @@ GlassTruth truth_of(const GlassCase& glass)
 
 GlassInput input_of(const GlassCase& glass, const GlassTruth& truth)
 {
-    const double sin_i = truth.sin_i.convert_to<double>();
-    const double cos_i = truth.cos_i.convert_to<double>();
+    const double sin_i = truth.sin_i.to_double();
+    const double cos_i = truth.cos_i.to_double();
     return {{sin_i * glass.azimuth_x, sin_i * glass.azimuth_y, glass.outside ? cos_i : -cos_i},
-            (1 + glass.excess).convert_to<double>(),
-            glass.excess.convert_to<double>()};
+            (1 + glass.excess).to_double(),
+            glass.excess.to_double()};
 }
 
 double error_against(const GlassCase& glass, const GlassTruth& truth, const GlassAnswer& answer)
 {
-    double error = abs(Exact(answer.reflected) - (1 - truth.transmitted)).convert_to<double>();
+    double error = abs(Exact(answer.reflected) - (1 - truth.transmitted)).to_double();
     if (!answer.refracts || glass.cos2_t <= 0) return error;
-    const double sin_t = (glass.eta * truth.sin_i).convert_to<double>();
-    const double cos_t = truth.cos_t.convert_to<double>();
+    const double sin_t = (glass.eta * truth.sin_i).to_double();
+    const double cos_t = truth.cos_t.to_double();
     const scenes::Vec3 wi(-sin_t * glass.azimuth_x, -sin_t * glass.azimuth_y,
                           glass.outside ? -cos_t : cos_t);
     // Comparisons that are false for NaN keep it.

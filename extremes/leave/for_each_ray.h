@@ -5,11 +5,7 @@
 #include "extremes/leave/leave_case.h"
 #include "extremes/refusal.h"
 
-#include <algorithm>
-
 namespace extremes {
-
-constexpr int rays_of_scene = 25; // of one random scene
 
 /// Makes random scenes with `cases` rays in all. Calls found(case, tally), which returns a FoundOnward
 /// for each ray, and adds all to `tally`. An exception by which the program refuses the scene, or a part
@@ -19,13 +15,13 @@ template <class Found>
 void for_each_leave_ray(MakeLeaveCase make, double parameter, Random& random, int cases, Tally& tally,
                         const Found& found)
 {
-    for (int done = 0; done < cases; done += rays_of_scene) {
-        const LeaveCase from = make(parameter, random, std::min(rays_of_scene, cases - done));
+    for (const AnsweredCase& answered : answered_cases(make, parameter, random, cases)) {
+        const LeaveCase& from = answered.from;
         std::vector<FoundOnward> all;
         const bool accepted = unless_refused(tally, from.rays.size(), [&] { all = found(from, tally); });
         if (!accepted) continue;
         for (std::size_t i = 0; i < from.rays.size(); ++i) {
-            if (const auto truth = exact_onward(from.scene, from.rays[i]))
+            if (const auto& truth = answered.truths[i])
                 judge_onward(from, from.rays[i], *truth, all.at(i), tally);
             else
                 tally.add(Failure::missed);

@@ -108,6 +108,35 @@ std::optional<Onward> exact_onward(const scenes::Scene& scene, const LeaveRay& r
     return next;
 }
 
+const std::vector<AnsweredCase>& answered_cases(MakeLeaveCase make, double parameter, Random& random,
+                                                int cases)
+{
+    constexpr int rays_of_scene = 25;
+    struct Last {
+        MakeLeaveCase make = nullptr;
+        double parameter = 0;
+        int cases = 0;
+        Random before{0}, after{0};
+        std::vector<AnsweredCase> answered;
+    };
+    thread_local Last last;
+    if (last.make == make && last.parameter == parameter && last.cases == cases &&
+        last.before == random) {
+        random = last.after;
+        return last.answered;
+    }
+    Last now{make, parameter, cases, random, random, {}};
+    for (int done = 0; done < cases; done += rays_of_scene) {
+        AnsweredCase answered{make(parameter, random, std::min(rays_of_scene, cases - done)), {}};
+        for (const LeaveRay& ray : answered.from.rays)
+            answered.truths.push_back(exact_onward(answered.from.scene, ray));
+        now.answered.push_back(std::move(answered));
+    }
+    now.after = random;
+    last = std::move(now);
+    return last.answered;
+}
+
 void judge_onward(const LeaveCase& from, const LeaveRay& ray, const Onward& truth,
                   const FoundOnward& found, Tally& tally)
 {
@@ -125,7 +154,7 @@ void judge_onward(const LeaveCase& from, const LeaveRay& ray, const Onward& trut
     }
     const Exact difference = (found.distance - truth.distance) * Exact(glm::length(ray.onward));
     if (*found.second == truth.primitive)
-        tally.add((abs(difference) / Exact(from.size)).convert_to<double>());
+        tally.add((abs(difference) / Exact(from.size)).to_double());
     else if (*found.second == ray.start)
         tally.add(Failure::self_hit);
     else

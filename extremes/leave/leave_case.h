@@ -40,6 +40,21 @@ struct Onward {
 /// starts in. None if the ray does not meet `start` first, or if the light goes nowhere.
 std::optional<Onward> exact_onward(const scenes::Scene& scene, const LeaveRay& ray);
 
+/// Makes a case of `rays` rays for a value of the axis' parameter.
+using MakeLeaveCase = LeaveCase (*)(double parameter, Random& random, int rays);
+
+/// A case and the exact answer for each of its rays.
+struct AnsweredCase {
+    LeaveCase from;
+    std::vector<std::optional<Onward>> truths;
+};
+
+/// Random cases with `cases` rays in all, 25 in each. The answers cost far more than what any method
+/// finds, so the last result of each thread is kept: methods that ask one after the other for the same
+/// cases, by equal arguments, share it. It is valid until this thread asks for others.
+const std::vector<AnsweredCase>& answered_cases(MakeLeaveCase make, double parameter, Random& random,
+                                                int cases);
+
 /// What a method finds.
 struct FoundOnward {
     std::optional<std::uint32_t> first, second; // primitives; none where nothing is hit
@@ -56,13 +71,11 @@ struct FoundOnward {
 void judge_onward(const LeaveCase& from, const LeaveRay& ray, const Onward& truth,
                   const FoundOnward& found, Tally& tally);
 
-/// Makes a case of `rays` rays for a value of the axis' parameter.
-using MakeLeaveCase = LeaveCase (*)(double parameter, Random& random, int rays);
-
 /// "ref", "host", "cuda" where there is a GPU, and, if `tricks`, the usual tricks in both formats.
 std::vector<Method> leave_methods(MakeLeaveCase make, bool tricks = true);
 
-/// The methods of one kind (leave_tricks.cpp).
-std::vector<Method> leave_tricks(MakeLeaveCase make);
+/// The usual tricks alone (leave_tricks.cpp). Without `triangles`, a threshold of determinants does
+/// nothing that excluding does not, and is left out.
+std::vector<Method> leave_tricks(MakeLeaveCase make, bool triangles = true);
 
 } // namespace extremes

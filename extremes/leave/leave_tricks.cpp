@@ -3,11 +3,11 @@
 // primitives are those of our two implementations, so what differs is the trick.
 
 #include "extremes/leave/for_each_ray.h"
+#include "extremes/leave/moved_by_ulps.h"
 #include "extremes/leave/rounded_scene.h"
 
 #include <glm/geometric.hpp>
 
-#include <bit>
 #include <cmath>
 
 namespace extremes {
@@ -34,24 +34,6 @@ auto facing_normal(const RoundedScene<F>& scene, std::size_t triangles, std::uin
     return glm::dot(normal, onward) < 0 ? -normal : normal;
 }
 
-/// `x` moved by units in the last place in proportion to `n`, or, near 0, by a fixed distance: with the
-/// constants of [Waechter and Binder 2019, listing 6-1] for floats. For doubles the fixed distance is
-/// smaller by the ratio of the formats' units in the last place, 2^29.
-float moved_by_ulps(float x, float n)
-{
-    constexpr float near = 1.0f / 32.0f;
-    if (std::abs(x) < near) return x + n / 65536.0f;
-    const auto steps = static_cast<std::int32_t>(256.0f * n);
-    return std::bit_cast<float>(std::bit_cast<std::int32_t>(x) + (x < 0 ? -steps : steps));
-}
-double moved_by_ulps(double x, double n)
-{
-    constexpr double near = 1.0 / 32.0;
-    if (std::abs(x) < near) return x + n * 0x1p-45;
-    const auto steps = static_cast<std::int64_t>(256.0 * n);
-    return std::bit_cast<double>(std::bit_cast<std::int64_t>(x) + (x < 0 ? -steps : steps));
-}
-
 template <class F>
 FoundOnward found_by_trick(const RoundedScene<F>& scene, std::size_t triangles, const LeaveRay& ray,
                            Trick trick, F epsilon)
@@ -72,10 +54,9 @@ FoundOnward found_by_trick(const RoundedScene<F>& scene, std::size_t triangles, 
     if (trick == Trick::fixed) moved = epsilon / length;
     if (trick == Trick::relative) moved = epsilon * first->t / length;
     start += moved * onward;
-    if (trick == Trick::ulps) {
-        const Vec3 n = facing_normal(scene, triangles, first->primitive, start, onward);
-        for (int axis = 0; axis < 3; ++axis) start[axis] = moved_by_ulps(start[axis], n[axis]);
-    }
+    if (trick == Trick::ulps)
+        start =
+            point_moved_by_ulps(start, facing_normal(scene, triangles, first->primitive, start, onward));
     if (trick == Trick::exclude || trick == Trick::determinant) left.primitive = first->primitive;
     const auto next = scene.intersect(start, onward, left);
     if (!next) return found;
@@ -105,7 +86,7 @@ Method trick_method(const std::string& name, MakeLeaveCase make, Trick trick, do
 }
 
 template <class F>
-void add_tricks(std::vector<Method>& methods, MakeLeaveCase make)
+void add_tricks(std::vector<Method>& methods, MakeLeaveCase make, bool triangles)
 {
     methods.push_back(trick_method<F>("fixed 1e-3", make, Trick::fixed, 1e-3));
     methods.push_back(trick_method<F>("fixed 1e-4", make, Trick::fixed, 1e-4));
@@ -113,16 +94,17 @@ void add_tricks(std::vector<Method>& methods, MakeLeaveCase make)
     methods.push_back(trick_method<F>("relative 1e-3", make, Trick::relative, 1e-3));
     methods.push_back(trick_method<F>("ulps", make, Trick::ulps));
     methods.push_back(trick_method<F>("exclude", make, Trick::exclude));
-    methods.push_back(trick_method<F>("determinant 1e-6", make, Trick::determinant, 1e-6));
+    if (triangles)
+        methods.push_back(trick_method<F>("determinant 1e-6", make, Trick::determinant, 1e-6));
 }
 
 } // namespace
 
-std::vector<Method> leave_tricks(MakeLeaveCase make)
+std::vector<Method> leave_tricks(MakeLeaveCase make, bool triangles)
 {
     std::vector<Method> methods;
-    add_tricks<float>(methods, make);
-    add_tricks<double>(methods, make);
+    add_tricks<float>(methods, make, triangles);
+    add_tricks<double>(methods, make, triangles);
     return methods;
 }
 

@@ -12,8 +12,8 @@ const failureColors = {
 };
 const colorOf = (axis, method) => {
   if (["ref", "host", "cuda"].includes(method.name)) return `var(--${method.name})`;
-  // A trick has one colour in both formats: "float, fixed 1e-3" and "double, fixed 1e-3".
-  const trick = name => name.replace(/^(double|float),? ?/, "");
+  // A trick has one colour in both formats: "float, fixed 1e-3" and "double, fixed 1e-3", "ref, path" and "host, path".
+  const trick = name => name.replace(/^(double|float|ref|host),? ?/, "");
   const tricks = [...new Set(methodsOf(axis).filter(m => !["ref", "host", "cuda"].includes(m.name)).map(m => trick(m.name)))];
   return `var(--c${tricks.indexOf(trick(method.name)) % 8})`;
 };

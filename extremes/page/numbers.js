@@ -4,7 +4,7 @@ function numbersOf(axis) {
   const head = element("tr", {}, ...["method", "parameter", "cases", "median", "largest", "failures"].map((t, i) => element("th", i > 0 && i < 5 ? { class: "n" } : {}, t)));
   const rows = methodsOf(axis).flatMap(m => pointsOf(m).map(p => element("tr", {}, element("td", {}, m.name), element("td", { class: "n" }, number(p.parameter)),
     element("td", { class: "n" }, number(p.cases, 10)), element("td", { class: "n" }, p.errors > 0 ? number(p.median) : none), element("td", { class: "n" }, p.errors > 0 ? number(p.largest) : none),
-    element("td", {}, Object.entries(p.failures ?? {}).map(([k, n]) => `${n} ${k}`).join(", ") + (p.refusal ? `: ${p.refusal}` : "") + (p.notice ? ` (notice: ${p.notice})` : "")))));
+    element("td", {}, Object.entries(p.failures ?? {}).map(([k, n]) => `${n} ${k}`).join(", ") + (p.refusal ? `: ${p.refusal}` : "") + (p.notice ? ` (notice: ${p.notice})` : "") + (p.not_walked ? `not walked: ${p.not_walked}` : "")))));
   return element("table", {}, element("thead", {}, head), element("tbody", {}, ...rows));
 }
 function addAxis(axis) {

@@ -78,10 +78,15 @@ function drawMethod(axis, svg, method, x, y, top) {
   const values = (axis.values ?? []).filter(finite);
   for (const p of pointsOf(method)) {
     const failed = Object.keys(failureColors).filter(k => p.failures?.[k] > 0);
-    if (failed.length === 0) continue;
+    if (failed.length === 0 && !p.not_walked) continue;
     const i = values.indexOf(p.parameter); // a cell reaches half-way to its neighbours
     const from = i > 0 ? (x(values[i - 1]) + x(p.parameter)) / 2 : frame.left;
     const to = i + 1 < values.length && i >= 0 ? (x(p.parameter) + x(values[i + 1])) / 2 : frame.width - frame.right;
+    if (p.not_walked) {
+      row.append("rect").attr("class", "unwalked").attr("x", from).attr("width", Math.max(1, to - from)).attr("y", top).attr("height", frame.row)
+        .append("title").text(`${method.name} at ${number(p.parameter)}: not walked: ${p.not_walked}`);
+      continue;
+    }
     const share = failed.reduce((sum, k) => sum + p.failures[k], 0) / p.cases;
     row.append("rect").attr("x", from).attr("width", Math.max(1, to - from)).attr("y", top + 1).attr("height", frame.row - 3)
       .attr("fill", failureColors[failed[0]]).attr("opacity", Math.max(0.3, Math.min(1, 0.3 + 0.7 * share)))
@@ -110,5 +115,7 @@ function addLegend(axis, place) {
   const seen = Object.keys(failureColors).filter(k => methodsOf(axis).some(m => pointsOf(m).some(p => p.failures?.[k] > 0)));
   const list = element("ul", { class: "legend" });
   for (const kind of seen) list.append(element("li", {}, element("i", { style: `background:${failureColors[kind]}` }), kind));
-  if (seen.length) place.append(list);
+  if (methodsOf(axis).some(m => pointsOf(m).some(p => p.not_walked)))
+    list.append(element("li", {}, element("i", { class: "unwalked" }), "not walked"));
+  if (list.children.length) place.append(list);
 }

@@ -101,8 +101,7 @@ auto cases_of_two_rays(BothMet (*trace)(const scenes::Scene&, const scenes::Vec3
                 continue;
             }
             const auto error = [&](const Met& at, const ExactVec3& point, double relative_to) {
-                return length(ExactVec3(at.position / unit) - point).template convert_to<double>() /
-                       relative_to;
+                return length(ExactVec3(at.position / unit) - point).to_double() / relative_to;
             };
             double largest = error(*met[0], rays.first_point, rays.first_length);
             if (rays.second)

@@ -45,6 +45,25 @@ TEST(ExtremesResults, AreReadBackAsTheyWere)
     EXPECT_EQ(results(sample_description(), empty), json);
 }
 
+TEST(ExtremesResults, SayWhatWasNotWalkedAndTryItAgain)
+{
+    std::vector<WalkedAxis> walked = sample_walk();
+    Point& last = walked[0].methods[0].points.back();
+    Point point;
+    point.parameter = last.parameter;
+    point.not_walked = "needs 17 GiB";
+    last = point;
+    const Json json = results(sample_description(), walked);
+    EXPECT_EQ(json.at("axes").at(0).at("methods").at(0).at("safe"), Json::parse("[0.001,100.0]"));
+    EXPECT_NE(table(json).find("none; not walked at 1e+03: needs 17 GiB"), std::string::npos)
+        << table(json);
+    for (WalkedAxis& axis : walked)
+        for (WalkedAxis::Of& of : axis.methods) of.points.clear();
+    restore(json, sample_description(), walked);
+    EXPECT_EQ(walked[0].methods[0].points.size(), 6u);
+    EXPECT_EQ(walked[0].methods[1].points.size(), 7u);
+}
+
 TEST(ExtremesResults, OfSomethingElseAreRefused)
 {
     std::vector<WalkedAxis> walked = sample_walk();

@@ -59,12 +59,14 @@ TEST(Tally, AddsToAnother)
     b.add(1e-5);
     b.add(Failure::missed);
     b.refuse("no");
+    b.leave_out("too large");
     a += b;
     EXPECT_EQ(a.cases(), 4u);
     EXPECT_EQ(a.errors(), 2u);
     EXPECT_EQ(a.largest(), 1e-3);
     EXPECT_EQ(a.failures(Failure::missed), 1u);
     EXPECT_EQ(a.refusal(), "no");
+    EXPECT_EQ(a.left_out(), "too large");
 }
 
 } // namespace extremes

@@ -50,6 +50,25 @@ TEST(Walk, TheSameCasesForAnyNumberOfThreads)
               visit(axis, axis.methods[0], 1.0, options)->largest());
 }
 
+TEST(Walk, MethodsTogetherGetTheCasesOfEachAlone)
+{
+    Axis axis = simple_axis();
+    axis.methods.push_back(
+        {"twice", Format::binary64, [](double, Random& random, int cases, Tally& tally) {
+             for (int i = 0; i < cases; ++i) tally.add(2e-9 * random.uniform());
+         }});
+    WalkOptions options;
+    options.cases = 1234;
+    options.threads = 2;
+    const std::vector<const Method*> both = {&axis.methods[0], &axis.methods[1]};
+    const auto together = visit(axis, both, 1.0, options);
+    ASSERT_TRUE(together);
+    ASSERT_EQ(together->size(), 2u);
+    EXPECT_EQ((*together)[0].largest(), visit(axis, axis.methods[0], 1.0, options)->largest());
+    EXPECT_EQ((*together)[1].largest(), 2 * (*together)[0].largest());
+    EXPECT_EQ((*together)[1].cases(), 1234u);
+}
+
 TEST(Walk, NoMoreCasesThanTheAxisAllows)
 {
     Axis axis = simple_axis();
@@ -101,6 +120,29 @@ TEST(Walk, PointsContradictALimit)
     limit.safe = 100.0;
     limit.bound = [](double) { return 1e-9; };
     EXPECT_EQ(contradiction(axis, limit, points), "1000 of 1000 cases fail at 100: leaked");
+    limit.safe = 10.0;
+    limit.failure = Failure::missed; // at 100 cases leak
+    EXPECT_EQ(contradiction(axis, limit, points), "no case fails at 100, beyond the limit: missed");
+}
+
+TEST(Walk, WhatIsNotWalkedIsNeitherSafeNorAContradiction)
+{
+    const Axis axis = simple_axis();
+    std::vector<Point> points;
+    for (const double parameter : axis.values) {
+        Tally tally;
+        if (parameter == 10.0 || parameter == 100.0)
+            tally.leave_out("needs 17 GiB");
+        else
+            tally.add(1e-12);
+        points.push_back(point_of(parameter, tally));
+    }
+    EXPECT_EQ(points[4].not_walked, "needs 17 GiB");
+    EXPECT_EQ(points[3].not_walked, "");
+    EXPECT_FALSE(points[4].failed());
+    EXPECT_EQ(safe_range(axis, points)->to, 1.0);
+    const Limit limit{"ref", 10.0, [](double) { return 1e-9; }, 100.0, Failure::leaked, ""};
+    EXPECT_EQ(contradiction(axis, limit, points), "");
 }
 
 } // namespace extremes
