@@ -1,0 +1,51 @@
+// The options of `plumbline explain`. Those that choose the picture are those of `render`.
+
+#include "cli/explain_command.h"
+#include "cli/reference_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <stdexcept>
+
+namespace cli {
+
+void add_explain_options(CLI::App& command, ExplainCommand& options)
+{
+    command.add_option("scene", options.render.scene, "COLLADA file; -: standard input")->required();
+    command
+        .add_option("--pixel", options.pixel, "X,Y: column from the left and row from the top, from 0")
+        ->required();
+    command.add_option("--sample", options.sample, "Number of the pixel's sample, from 0")
+        ->check(CLI::Range(0u, (1u << 31) - 1).description(""))
+        ->capture_default_str();
+    command.add_option("--size", options.render.size, "Width x height of the picture in pixels")
+        ->capture_default_str();
+    add_estimator_options(command, options.render);
+    add_experiment_options(command, options.render);
+    command.add_flag("--frame", options.render.frame,
+                     "Move the camera back until the whole scene is visible");
+    command.add_flag("--json", options.json, "Print one JSON object, with all digits");
+    command.add_flag("-q,--quiet", options.render.quiet, "No progress and no notices");
+}
+
+std::uint32_t pixel_of(const ExplainCommand& options, int width, int height)
+{
+    const std::string& text = options.pixel;
+    const char* const end = text.data() + text.size();
+    int x = -1;
+    int y = -1;
+    const auto [comma, x_error] = std::from_chars(text.data(), end, x);
+    const bool first = x_error == std::errc() && comma != end && *comma == ',';
+    const auto [rest, y_error] = std::from_chars(first ? comma + 1 : end, end, y);
+    if (!first || y_error != std::errc() || rest != end)
+        throw std::invalid_argument("--pixel " + text + ": expected X,Y, such as 120,80");
+    if (x < 0 || x >= width || y < 0 || y >= height)
+        throw std::invalid_argument("--pixel " + text + ": the picture has columns 0 to " +
+                                    std::to_string(width - 1) + " and rows 0 to " +
+                                    std::to_string(height - 1) + " (--size)");
+    return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width) +
+           static_cast<std::uint32_t>(x);
+}
+
+} // namespace cli
