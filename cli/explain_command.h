@@ -12,13 +12,19 @@ namespace cli {
 
 struct ExplainCommand {
     RenderCommand render; // the picture of which a sample is explained
-    std::string pixel;    // "X,Y"
+    std::string pixel;    // "X,Y"; empty: any, with --where or --largest
     std::uint32_t sample = 0;
+    std::string where; // a condition (explain/condition.h); empty: none
+    bool largest = false;
+    std::string picture; // .svg; empty: none
     bool json = false;
 };
 
 /// Adds the options to `command`, which sets `options` when it is parsed.
 void add_explain_options(CLI::App& command, ExplainCommand& options);
+
+/// Throws std::invalid_argument for options that exclude each other, and where one is missing.
+void check(const ExplainCommand& options, const CLI::App& command);
 
 /// The number of --pixel in a picture of `width` x `height`: y * width + x. Throws
 /// std::invalid_argument.

@@ -46,13 +46,12 @@ Json of(const Draw& draw)
 
 Json of(const ref::World& world, const ref::Vertex& vertex)
 {
-    using Kind = ref::Vertex::Kind;
     Json json = {{"on", describe(world.scene, vertex)}};
-    if (vertex.kind == Kind::infinity)
+    if (vertex.kind == ref::Vertex::Kind::infinity)
         json["towards"] = of(vertex.towards);
     else
         json["position"] = of(vertex.point.position);
-    if (vertex.kind == Kind::surface) {
+    if (vertex.kind == ref::Vertex::Kind::surface) {
         json["normal"] = of(vertex.point.normal);
         json["primitive"] = vertex.point.primitive;
         json["material"] = world.scene.material_names[vertex.point.material];

@@ -31,6 +31,19 @@ std::string trimmed(std::string line)
     return line + "\n";
 }
 
+/// Four digits, for tables.
+std::string short_number(double x)
+{
+    std::array<char, 32> text{};
+    (void)std::snprintf(text.data(), text.size(), "%.4g", x);
+    return text.data();
+}
+
+std::string short_numbers(const Vec3& v)
+{
+    return short_number(v.x) + " " + short_number(v.y) + " " + short_number(v.z);
+}
+
 /// Appends `words` to lines that begin with `indent` spaces.
 void add_wrapped(std::string& text, const std::string& first, const std::vector<std::string>& words,
                  std::size_t indent)
@@ -144,7 +157,7 @@ std::string row(const std::vector<std::string>& cells, const std::vector<std::si
 
 std::string strategies_text(const ref::World& world, const Sample& sample)
 {
-    const std::vector<std::size_t> widths = {5, 3, 18, 34, 10, 10};
+    const std::vector<std::size_t> widths = {5, 3, 17, 30, 10, 10};
     std::string text =
         "\nStrategies: s vertices of the light walk, t of the eye walk\n" +
         row({"  s", "t", "family", "value alone (R G B)", "balance", "power", "adds"}, widths);
@@ -152,8 +165,9 @@ std::string strategies_text(const ref::World& world, const Sample& sample)
         std::vector<std::string> cells = {"  " + std::to_string(strategy.s), std::to_string(strategy.t),
                                           std::string(family_of(strategy))};
         if (strategy.made && !strategy.is_dropped())
-            cells.insert(cells.end(), {numbers(strategy.made->value), number(strategy.balance),
-                                       number(strategy.power), numbers(strategy.contribution())});
+            cells.insert(cells.end(),
+                         {short_numbers(strategy.made->value), short_number(strategy.balance),
+                          short_number(strategy.power), short_numbers(strategy.contribution())});
         else
             cells.push_back("- " + sentence(strategy, world.scene));
         text += row(cells, widths);

@@ -45,7 +45,7 @@ TEST(ExplainCommand, FitsATerminal)
         EXPECT_NE(outcome.out.find("Adds to its pixel 100,90: "), std::string::npos) << outcome.out;
         std::istringstream lines(outcome.out);
         for (std::string line; std::getline(lines, line);) {
-            EXPECT_LE(line.size(), 110u) << line;
+            EXPECT_LE(line.size(), 104u) << line;
             EXPECT_FALSE(line.ends_with(' ')) << line;
         }
     }
