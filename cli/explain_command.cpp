@@ -9,6 +9,7 @@
 #include "cli/scene_input.h"
 #include "explain/drawing.h"
 #include "explain/json.h"
+#include "explain/page.h"
 #include "explain/search.h"
 #include "explain/text.h"
 #include "images/atomic_file.h"
@@ -35,6 +36,8 @@ void print(const ExplainCommand& options, const Picture& picture, const ref::Sam
                                                            ref::path_options(picture.plan), id);
     if (!options.picture.empty())
         images::write_atomically(options.picture, explain::drawing(picture.world, sample));
+    if (!options.report.empty())
+        images::write_atomically(options.report, explain::page(picture.world, sample));
     if (options.json)
         std::cout << explain::json(picture.world, sample) << std::endl;
     else

@@ -17,6 +17,7 @@ struct ExplainCommand {
     std::string where; // a condition (explain/condition.h); empty: none
     bool largest = false;
     std::string picture; // .svg; empty: none
+    std::string report;  // .html; empty: none
     bool json = false;
 };
 

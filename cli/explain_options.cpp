@@ -40,6 +40,7 @@ void add_explain_options(CLI::App& command, ExplainCommand& options)
     command.add_flag("--frame", options.render.frame,
                      "Move the camera back until the whole scene is visible");
     command.add_option("--picture", options.picture, "Draw the paths in the scene, to this .svg");
+    command.add_option("--report", options.report, "Interactive page of the sample, to this .html");
     command.add_flag("--json", options.json, "Print one JSON object, with all digits");
     command.add_flag("-q,--quiet", options.render.quiet, "No progress and no notices");
 }
@@ -60,8 +61,11 @@ void check(const ExplainCommand& options, const CLI::App& command)
     exclude("--sample", searches, "with --where or --largest, which find one");
     exclude("--samples", !searches, "without --where or --largest: --sample names the sample");
     expect_ending(options.picture, "--picture", ".svg");
-    expect_different_files({{"--picture", options.picture}}, {{"the scene", options.render.scene}});
-    if (!options.picture.empty()) images::check_place(options.picture);
+    expect_ending(options.report, "--report", ".html");
+    expect_different_files({{"--picture", options.picture}, {"--report", options.report}},
+                           {{"the scene", options.render.scene}});
+    for (const std::string& file : {options.picture, options.report})
+        if (!file.empty()) images::check_place(file);
     exclude("--threads", !options.largest, "without --largest");
 }
 

@@ -1,5 +1,6 @@
 #include "explain/json.h"
 
+#include "explain/factors.h"
 #include "explain/names.h"
 
 #include <nlohmann/json.hpp>
@@ -97,7 +98,7 @@ void add_densities(Json& json, const Strategy& strategy)
     json["vertex_densities"] = {{"light", strategy.p->light}, {"eye", strategy.p->eye}};
 }
 
-Json of(const ref::World& world, const Strategy& strategy)
+Json of(const ref::World& world, const Sample& sample, const Strategy& strategy)
 {
     Json json = {{"s", strategy.s},
                  {"t", strategy.t},
@@ -114,6 +115,13 @@ Json of(const ref::World& world, const Strategy& strategy)
     json["weight_balance"] = strategy.balance;
     json["weight_power"] = strategy.power;
     json["contribution"] = of(strategy.contribution());
+    Json formula = Json::array();
+    for (const Factor& factor : factors(world, sample, strategy))
+        formula.push_back({{"name", factor.name},
+                           {"value", of(factor.value)},
+                           {"scalar", factor.is_scalar},
+                           {"divides", factor.divides}});
+    json["factors"] = formula;
     json["pixel"] = of_pixel(strategy.made->pixel, world);
     json["dropped"] = strategy.is_dropped();
     add_densities(json, strategy);
@@ -128,7 +136,7 @@ std::string json(const ref::World& world, const Sample& sample)
     Json draws = Json::array();
     for (const Draw& draw : sample.draws) draws.push_back(of(draw));
     Json strategies = Json::array();
-    for (const Strategy& strategy : sample.strategies) strategies.push_back(of(world, strategy));
+    for (const Strategy& strategy : sample.strategies) strategies.push_back(of(world, sample, strategy));
     const bool limited = options.max_edges != images::unlimited_edges;
     const Json json = {{"scene", world.scene.name},
                        {"scene_hash", world.scene.hash},
