@@ -31,7 +31,7 @@ std::string name_of_obstacle(const Strategy& strategy)
     return std::string(name_of(strategy.obstacle));
 }
 
-const std::vector<std::string> families = {"emission_hit", "next_event", "light_image",
+const std::vector<std::string> family_names = {"emission_hit", "next_event", "light_image",
                                            "inner_connection"};
 
 std::vector<std::string> obstacles()
@@ -86,7 +86,7 @@ void Condition::add_term(const std::string& term)
         refuse(term, "expected =, !=, <, <=, > or >=, not " + sign);
 
     if (name == "family" || name == "obstacle") {
-        const std::vector<std::string> names = name == "family" ? families : obstacles();
+        const std::vector<std::string> names = name == "family" ? family_names : obstacles();
         if (std::ranges::find(names, right) == names.end())
             refuse(term, "expected one of " + joined(names));
         if (sign != "=" && sign != "!=") refuse(term, "a name can only be compared by = and !=");
