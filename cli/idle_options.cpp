@@ -96,8 +96,9 @@ std::vector<Rule> rules_for(const BvhCommand& options)
 void expect_not_idle(const CLI::App& command, const std::vector<Rule>& rules)
 {
     for (const Rule& rule : rules) {
-        const CLI::Option& option = *command.get_option(rule.option);
-        if (!rule.idle || option.count() == 0) continue;
+        const CLI::Option* found = command.get_option_no_throw(rule.option);
+        if (!rule.idle || found == nullptr || found->count() == 0) continue;
+        const CLI::Option& option = *found;
         const bool flag = option.get_expected_max() == 0;
         throw std::invalid_argument(rule.option + (flag ? "" : " " + option.results().front()) +
                                     " has no effect " + rule.beside);

@@ -7,6 +7,8 @@
 #include "cli/command.h"
 #include "cli/compare_command.h"
 #include "cli/counts.h"
+#include "cli/explain_command.h"
+#include "cli/explain_tree_command.h"
 #include "cli/export_command.h"
 #include "cli/extremes_command.h"
 #include "cli/golden_command.h"
@@ -92,6 +94,8 @@ int main(int argc, char** argv)
     cli::add_extremes_command(program, work);
     cli::add_check_tree_command(program, work);
     cli::add_check_builder_command(program, work);
+    cli::add_explain_command(program, work);
+    cli::add_explain_tree_command(program, work);
     cli::add_export_command(program, work);
     cli::take_exponents(program);
     for (const char* name : {"check-renderer", "check-builder"})

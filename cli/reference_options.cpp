@@ -29,6 +29,11 @@ void add_reference_options(CLI::App& command, RenderCommand& options)
                     "Most primitives in a leaf of sah-leaf, 1 to 64; changes no bit")
         ->check(CLI::Range(std::size_t{1}, std::size_t{64}).description(""))
         ->capture_default_str();
+    add_experiment_options(command, options);
+}
+
+void add_experiment_options(CLI::App& command, RenderCommand& options)
+{
     command
         .add_option("--roulette-from", options.roulette_from,
                     "For ref: the first bounce that roulette may end, at least 1")

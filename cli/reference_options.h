@@ -9,6 +9,9 @@ namespace cli {
 /// Adds them to `command`, which sets `options` when it is parsed.
 void add_reference_options(CLI::App& command, RenderCommand& options);
 
+/// Of these, the experiments: all but the tree's.
+void add_experiment_options(CLI::App& command, RenderCommand& options);
+
 /// The families of strategies that contribute: all but those of --without.
 images::Families families_of(const RenderCommand& options);
 

@@ -51,6 +51,9 @@ struct RenderCommand {
 /// Adds the options to `command`, which sets `options` when it is parsed.
 void add_render_options(CLI::App& command, RenderCommand& options);
 
+/// Of these, the integrator with its weights, longest path, roulette and seed.
+void add_estimator_options(CLI::App& command, RenderCommand& options);
+
 /// Unless a batch size was `given`: takes the largest one up to the default that divides the samples, so
 /// that any number of samples is whole batches.
 void settle_batch_size(RenderCommand& options, bool given);

@@ -94,31 +94,10 @@ void add_device_options(CLI::App& command, RenderCommand& options)
         ->capture_default_str();
     command.add_flag("--deterministic", options.deterministic,
                      "The fast path gives the same bits every time; ref always does");
-}
-
-/// The estimator, and its random numbers.
-void add_integrator_options(CLI::App& command, RenderCommand& options)
-{
-    command.add_option("--integrator", options.integrator, "path, bdpt (bidirectional) or light")
-        ->check(one_of({"path", "bdpt", "light"}))
-        ->capture_default_str();
     command
         .add_option("--builder", options.builder,
                     "morton30, morton63; ref: sah, [sah-leaf]; others: hploc30, [hploc63]")
         ->check(one_of(all_builder_names()))
-        ->capture_default_str();
-    command
-        .add_option("--heuristic", options.heuristic,
-                    "Weights of bdpt: balance, power or, for ref, uniform (biased)")
-        ->check(one_of({"balance", "power", "uniform"}))
-        ->capture_default_str();
-    command
-        .add_option("--max-edges", options.max_edges,
-                    "Longest path, the camera's edge counted [no limit]")
-        ->check(CLI::Range(1, 1 << 20).description(""));
-    command.add_flag("--no-roulette", options.no_roulette, "No Russian roulette");
-    command.add_option("--seed", options.seed, "Seed of the random numbers")
-        ->check(expect_seed)
         ->capture_default_str();
 }
 
@@ -163,12 +142,32 @@ void check_files(const RenderCommand& options)
 
 } // namespace
 
+void add_estimator_options(CLI::App& command, RenderCommand& options)
+{
+    command.add_option("--integrator", options.integrator, "path, bdpt (bidirectional) or light")
+        ->check(one_of({"path", "bdpt", "light"}))
+        ->capture_default_str();
+    command
+        .add_option("--heuristic", options.heuristic,
+                    "Weights of bdpt: balance, power or, for ref, uniform (biased)")
+        ->check(one_of({"balance", "power", "uniform"}))
+        ->capture_default_str();
+    command
+        .add_option("--max-edges", options.max_edges,
+                    "Longest path, the camera's edge counted [no limit]")
+        ->check(CLI::Range(1, 1 << 20).description(""));
+    command.add_flag("--no-roulette", options.no_roulette, "No Russian roulette");
+    command.add_option("--seed", options.seed, "Seed of the random numbers")
+        ->check(expect_seed)
+        ->capture_default_str();
+}
+
 void add_render_options(CLI::App& command, RenderCommand& options)
 {
     // In the order of the help page.
     add_picture_options(command, options);
     add_device_options(command, options);
-    add_integrator_options(command, options);
+    add_estimator_options(command, options);
     add_reference_options(command, options);
     add_output_options(command, options);
 }

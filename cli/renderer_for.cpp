@@ -31,16 +31,6 @@ fast::InstructionSet instructions_named(const std::string& name)
                                 std::string(name_of(fast::best_instruction_set())));
 }
 
-/// --epsilon at the scale of `scene`; 0 if it was not given.
-double epsilon_in(const scenes::Scene& scene, const RenderCommand& options)
-{
-    if (!options.epsilon) return 0.0;
-    const double epsilon = *options.epsilon * scene.unit;
-    if (!(epsilon > 0.0 && epsilon <= 1e100))
-        throw std::invalid_argument("--epsilon: out of range for a scene of this size");
-    return epsilon;
-}
-
 std::string reference_builder(const RenderCommand& options)
 {
     return options.builder.empty() ? default_builder : options.builder;
@@ -64,6 +54,15 @@ fast::RendererOptions choices_of(const RenderCommand& options)
 }
 
 } // namespace
+
+double epsilon_in(const scenes::Scene& scene, const RenderCommand& options)
+{
+    if (!options.epsilon) return 0.0;
+    const double epsilon = *options.epsilon * scene.unit;
+    if (!(epsilon > 0.0 && epsilon <= 1e100))
+        throw std::invalid_argument("--epsilon: out of range for a scene of this size");
+    return epsilon;
+}
 
 std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, const scenes::Scene& scene)
 {

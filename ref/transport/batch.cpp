@@ -176,12 +176,7 @@ private:
     const World& world_;
     Integrator integrator_;
     const images::RenderOptions& options_;
-    PathOptions path_{.seed = options_.seed,
-                      .max_edges = options_.max_edges,
-                      .roulette = options_.roulette,
-                      .roulette_from = options_.roulette_from,
-                      .heuristic = options_.heuristic,
-                      .families = options_.families};
+    PathOptions path_ = path_options(options_);
     std::uint64_t number_;
     std::vector<Tile> tiles_;
     images::Image sum_; // finally the mean

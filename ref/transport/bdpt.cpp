@@ -18,9 +18,8 @@ std::size_t most_edges(const PathOptions& options)
     return static_cast<std::size_t>(options.max_edges);
 }
 
-/// The most vertices of the eye walk that can be needed. A path has s + t - 1 edges, at most max_edges.
-/// So an emission hit (s = 0) needs max_edges + 1 of them, a next event (s = 1) one less, an inner
-/// connection (s >= 2) two less, and the light image z_0 alone.
+} // namespace
+
 std::size_t most_eye_vertices(const PathOptions& options)
 {
     const std::size_t longest = most_edges(options);
@@ -29,16 +28,12 @@ std::size_t most_eye_vertices(const PathOptions& options)
     return options.families.inner_connection ? longest - 1 : 1;
 }
 
-/// The most vertices of the light walk that can be needed: by the light image (t = 1), or by an inner
-/// connection (t >= 2).
 std::size_t most_light_vertices(const PathOptions& options)
 {
     const std::size_t longest = most_edges(options);
     if (options.families.light_image) return longest;
     return options.families.inner_connection ? longest - 1 : 0;
 }
-
-} // namespace
 
 void trace_bidirectionally(const World& world, const PathOptions& options, const SampleId& id,
                            std::vector<Contribution>& out)

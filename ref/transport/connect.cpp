@@ -1,21 +1,10 @@
 #include "ref/transport/connect.h"
 
 #include "ref/transport/emission.h"
-#include "ref/transport/mis_weight.h"
-#include "ref/transport/visibility.h"
 
 namespace ref {
 
 namespace {
-
-/// x_0 ... x_k: the light walk, then the eye walk backwards.
-Path join(std::span<const Vertex> y, std::span<const Vertex> z)
-{
-    Path x;
-    for (const Vertex& vertex : y) x.push_back(&vertex);
-    for (std::size_t t = z.size(); t > 0; --t) x.push_back(&z[t - 1]);
-    return x;
-}
 
 /// The contribution of a path whose ends are joined; nullopt if it carries no light.
 std::optional<Contribution> contribution(const World& world, const PathOptions& options,
@@ -27,16 +16,30 @@ std::optional<Contribution> contribution(const World& world, const PathOptions& 
                         mis_weight(world, options, join(y, z), y.size())};
 }
 
-/// Whether no surface lies between the eye and another vertex, on a surface or at infinity.
-bool eye_sees(const World& world, const Vertex& vertex)
+} // namespace
+
+LineOfSight line_to_eye(const World& world, const Vertex& vertex)
 {
     if (vertex.kind == Vertex::Kind::infinity)
-        return !occluded(world.geometry,
-                         {world.camera.eye(), vertex.towards, Ray{}.t_max, world.eye_on});
-    return visible(world.geometry, vertex.point, world.camera.eye(), world.eye_on);
+        return {LineOfSight::Test::ray, {world.camera.eye(), vertex.towards, Ray{}.t_max, world.eye_on}};
+    return line_of_sight(world.geometry, vertex.point, world.camera.eye(), world.eye_on);
 }
 
-} // namespace
+Vertex light_vertex(const World& world, const IncidentLight& light)
+{
+    const Rgb no_walk(1.0);
+    return light.infinite ? infinity_vertex(*light.emitter, light.wi, no_walk)
+           : light.delta  ? source_vertex(*light.emitter, light.end.position, no_walk)
+                          : surface_vertex(world, light.end, no_walk);
+}
+
+Path join(std::span<const Vertex> y, std::span<const Vertex> z)
+{
+    Path x;
+    for (const Vertex& vertex : y) x.push_back(&vertex);
+    for (std::size_t t = z.size(); t > 0; --t) x.push_back(&z[t - 1]);
+    return x;
+}
 
 std::optional<Contribution> emission_hit(const World& world, const PathOptions& options,
                                          const SampleId& id, std::span<const Vertex> z)
@@ -56,10 +59,7 @@ std::optional<Contribution> next_event(const World& world, const PathOptions& op
         sample_incident(world.emitters, last.point.position,
                         uniforms(id, Event::next_event, static_cast<std::uint32_t>(z.size() - 1)));
     if (!light) return std::nullopt;
-    const Rgb no_walk(1.0);
-    const Vertex y0 = light->infinite ? infinity_vertex(*light->emitter, light->wi, no_walk)
-                      : light->delta  ? source_vertex(*light->emitter, light->end.position, no_walk)
-                                      : surface_vertex(world, light->end, no_walk);
+    const Vertex y0 = light_vertex(world, *light);
     const Rgb f = evaluate_bsdf(world, y0, last, z[z.size() - 2]);
     if (f == Rgb(0.0) || !visible(world.geometry, last.point, *light)) return std::nullopt;
     return contribution(world, options, id.pixel, {&y0, 1}, z,
@@ -77,7 +77,7 @@ std::optional<Contribution> light_image(const World& world, const PathOptions& o
     if (!film) return std::nullopt;
     const Rgb scattered =
         first ? emitted(world, last, eye) : evaluate_bsdf(world, y[y.size() - 2], last, eye);
-    if (scattered == Rgb(0.0) || !eye_sees(world, last)) return std::nullopt;
+    if (scattered == Rgb(0.0) || !is_free(world.geometry, line_to_eye(world, last))) return std::nullopt;
     if (first && last.kind == Vertex::Kind::surface && !sees_first(world.geometry, last.point, -w))
         return std::nullopt;
     const auto pixel =

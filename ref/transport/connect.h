@@ -10,12 +10,23 @@
 //   light_image       s >= 1, t = 1    Case III        a light vertex seen from the eye
 //   inner_connection  s >= 2, t >= 2   Case IV         a light vertex seen from an eye vertex
 
+#include "ref/transport/mis_weight.h"
 #include "ref/transport/vertex.h"
+#include "ref/transport/visibility.h"
 
 #include <optional>
 #include <span>
 
 namespace ref {
+
+/// x_0 ... x_k: the light walk, then the eye walk backwards.
+Path join(std::span<const Vertex> y, std::span<const Vertex> z);
+
+/// The vertex y_0 of a next event: where `light` leaves its emitter.
+Vertex light_vertex(const World& world, const IncidentLight& light);
+
+/// What has to be free between the eye and another vertex, on a surface or at infinity.
+LineOfSight line_to_eye(const World& world, const Vertex& vertex);
 
 /// s = 0: the eye walk z_0 ... z_{t-1} ends on an emitter.
 std::optional<Contribution> emission_hit(const World& world, const PathOptions& options,

@@ -66,6 +66,16 @@ struct PathOptions {
     images::Families families = {};           // those that contribute; they do not change the weights
 };
 
+inline PathOptions path_options(const images::RenderOptions& options)
+{
+    return {.seed = options.seed,
+            .max_edges = options.max_edges,
+            .roulette = options.roulette,
+            .roulette_from = options.roulette_from,
+            .heuristic = options.heuristic,
+            .families = options.families};
+}
+
 /// The contribution of one path to one pixel. The path has s vertices from the light and t from the eye
 /// [Veach 1997, sec. 10.2], hence s + t - 1 edges.
 struct Contribution {

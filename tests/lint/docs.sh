@@ -20,7 +20,7 @@ while IFS= read -r -d '' document; do
         sed -E 's/`([^`]+)`: +`([^`]+)`/\1|\2/')
     while read -r file; do
         [ -e "$file" ] || complain "$document: there is no $file"
-    done < <(grep -oE '`(ref|cuda|golden|images|scenes|trade|check|extremes|cli|tests)/[A-Za-z0-9_./]+\.(h|cpp|cu|cuh|dae)`' <<<"$text" | tr -d '`')
+    done < <(grep -oE '`(ref|cuda|golden|images|scenes|trade|check|extremes|explain|cli|tests)/[A-Za-z0-9_./]+\.(h|cpp|cu|cuh|dae)`' <<<"$text" | tr -d '`')
     while read -r picture; do
         [ -f "$(dirname "$document")/$picture" ] || complain "$document: there is no picture $picture"
     done < <(grep -oE '\]\([A-Za-z0-9_./-]+\.(png|svg)\)' <<<"$text" | sed -E 's/\]\((.*)\)/\1/')

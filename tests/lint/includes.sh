@@ -13,11 +13,12 @@ tracked '*.h' '*.cpp' '*.cu' '*.cuh' | xargs -0 -r awk '
         may["ref"] = " ref scenes images "
         may["cuda"] = " cuda scenes images "
         may["extremes"] = " extremes ref cuda scenes images "
+        may["explain"] = " explain ref cuda scenes images "
         may["check"] = " check golden ref scenes images "
         may["examples"] = " cuda check golden ref scenes images "
-        may["cli"] = " cli ref cuda golden trade check extremes scenes images "
-        may["docs"] = " docs cli ref cuda golden trade check extremes scenes images "
-        may["tests"] = " tests cli ref cuda golden trade check extremes scenes images "
+        may["cli"] = " cli ref cuda golden trade check extremes explain scenes images "
+        may["docs"] = " docs cli ref cuda golden trade check extremes explain scenes images "
+        may["tests"] = " tests cli ref cuda golden trade check extremes explain scenes images "
     }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
         split(FILENAME, from, "/")

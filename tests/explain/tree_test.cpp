@@ -1,0 +1,95 @@
+// The steps of explain_tree lead to the nodes of the reference's tree.
+
+#include "explain/tree.h"
+#include "explain/tree_text.h"
+#include "ref/trees/bvh.h"
+#include "ref/trees/radix_tree.h"
+#include "tests/ref/transport/random_scene.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace {
+
+using explain::Probe;
+
+/// Codes with many equal ones, sorted.
+std::vector<std::uint64_t> any_codes()
+{
+    std::vector<std::uint64_t> codes(static_cast<std::size_t>(transport_test::any_number(2.0, 60.0)));
+    const bool few = transport_test::any_chance(0.5);
+    for (std::uint64_t& code : codes)
+        code = few ? std::uint64_t{*transport_test::any_word()} % 8
+                   : std::uint64_t{*transport_test::any_word()} << 20;
+    std::ranges::sort(codes);
+    return codes;
+}
+
+RC_GTEST_PROP(ExplainTree, SearchesLeadToTheNodesOfTheReference, ())
+{
+    const std::vector<std::uint64_t> codes = any_codes();
+    for (std::int64_t i = 0; i + 1 < std::ssize(codes); ++i) {
+        const explain::NodeSearch search = explain::search_of_node(codes, i);
+        const auto [first, last, gamma] = ref::radix_node(codes, i);
+        RC_ASSERT(std::min(search.i, search.j) == first);
+        RC_ASSERT(std::max(search.i, search.j) == last);
+        RC_ASSERT(search.gamma == gamma);
+        std::int64_t l = 0;
+        for (const Probe& probe : search.length) {
+            RC_ASSERT(probe.key == i + (l + probe.step) * search.d);
+            RC_ASSERT(probe.delta == ref::delta(codes, i, probe.key));
+            RC_ASSERT(probe.longer == (probe.delta > search.delta_min));
+            l += probe.longer ? probe.step : 0;
+        }
+        RC_ASSERT(l == search.l);
+        RC_ASSERT(!search.doubling.back().longer);
+    }
+}
+
+std::vector<ref::Aabb> any_boxes(std::size_t count)
+{
+    std::vector<ref::Aabb> boxes;
+    for (std::size_t i = 0; i < count; ++i) {
+        const ref::Vec3 p = transport_test::any_point(1.0);
+        boxes.push_back({p, p + ref::Vec3(transport_test::any_number(0.0, 0.3))});
+        if (transport_test::any_chance(0.3)) boxes.push_back(boxes.back());
+    }
+    return boxes;
+}
+
+RC_GTEST_PROP(ExplainTree, TheWayLeadsToTheRootThroughTheTree, ())
+{
+    const auto boxes = any_boxes(static_cast<std::size_t>(transport_test::any_number(1.0, 40.0)));
+    const int bits = transport_test::any_chance(0.5) ? 10 : 21;
+    const ref::Tree tree =
+        ref::build(boxes, bits == 10 ? ref::Builder::morton30 : ref::Builder::morton63);
+    for (std::uint32_t primitive = 0; primitive < boxes.size(); ++primitive) {
+        const explain::TreeExplanation told = explain::explain_tree(boxes, bits, primitive);
+        RC_ASSERT(tree.primitives[tree.leaf_begin[tree.leaf(told.leaf)]] == primitive);
+        RC_ASSERT(told.key.code == ref::morton_encode(told.cell));
+        std::uint32_t node = told.leaf;
+        for (const explain::Ancestor& at : told.way) {
+            RC_ASSERT(at.node == tree.nodes[node].parent);
+            RC_ASSERT(at.bounds == tree.bounds[at.node]);
+            RC_ASSERT(std::ranges::is_permutation(at.from, tree.nodes[at.node].children));
+            RC_ASSERT(at.first <= told.key.place && told.key.place <= at.last);
+            // From left to right, the last leaf of each child finishes it.
+            RC_ASSERT(at.arrives[0] == at.gamma);
+            RC_ASSERT(at.arrives[1] == at.last);
+            node = at.node;
+        }
+        RC_ASSERT(tree.nodes[node].parent == ref::no_node);
+        RC_ASSERT(told.search.has_value() == (told.key.place + 1 < std::ssize(boxes)));
+    }
+}
+
+TEST(ExplainTree, RefusesAPrimitiveThatDoesNotExist)
+{
+    const std::vector<ref::Aabb> boxes(3, ref::Aabb{ref::Vec3(0.0), ref::Vec3(1.0)});
+    EXPECT_THROW((void)explain::explain_tree(boxes, 10, 3), std::invalid_argument);
+}
+
+} // namespace
