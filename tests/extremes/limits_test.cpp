@@ -54,9 +54,9 @@ std::vector<NamedLimit> all_limits(bool that_fail_beyond)
     return result;
 }
 
-/// The number of cases: 2,000, so that the test run stays short, of other random numbers in each run; 10^5
-/// with PLUMBLINE_LONG (./run extremes). With n cases a run finds an error that one case in m has with
-/// probability 1 - (1 - 1/m)^n: that of one case in 668 with 95%, in ten runs that of one in 6,677.
+/// The number of cases: 2,000, so that the test run stays short, of other random numbers in each run;
+/// 10^5 with PLUMBLINE_LONG (./run extremes). With n cases a run finds an error that one case in m has
+/// with probability 1 - (1 - 1/m)^n: that of one case in 668 with 95%, in ten runs that of one in 6,677.
 int cases_inside()
 {
     const char* text = std::getenv("PLUMBLINE_LONG");

@@ -68,8 +68,8 @@ void expect_path_does_not_disagree(const std::string& name, Where where)
     if (name == "point_in_glass") {
         // No eye walk hits a point light, and no shadow ray refracts: path tracing cannot find this
         // light.
-        const JudgedRender judged = judge(name, fast::Integrator::path, where, golden::Method::welch,
-                                          renders_test::one_stage());
+        const JudgedRender judged =
+            judge(name, fast::Integrator::path, where, golden::Method::welch, renders_test::one_stage());
         EXPECT_EQ(judged.comparison.verdict, golden::Verdict::fail);
         return;
     }

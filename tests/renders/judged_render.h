@@ -145,7 +145,8 @@ inline golden::CompareOptions short_options()
     return options;
 }
 
-/// For a picture that must fail, all of whose light is missing or wrong: the first stage is certain of it.
+/// For a picture that must fail, all of whose light is missing or wrong: the first stage is certain of
+/// it.
 inline golden::CompareOptions one_stage()
 {
     golden::CompareOptions options = short_options();

@@ -60,8 +60,8 @@ TEST_P(Golden, PathTracingDoesNotDisagree)
     if (GetParam() == "point_in_glass") {
         // No eye walk hits a point light, and no shadow ray refracts: path tracing cannot find this
         // light.
-        const JudgedRender judged = judge(GetParam(), "path", ref::trace_path, golden::Method::welch,
-                                          renders_test::one_stage());
+        const JudgedRender judged =
+            judge(GetParam(), "path", ref::trace_path, golden::Method::welch, renders_test::one_stage());
         EXPECT_EQ(judged.comparison.verdict, golden::Verdict::fail);
         return;
     }
