@@ -8,9 +8,9 @@ namespace cli {
 
 namespace {
 
-constexpr int column = 46;  // pixels per key
-constexpr int row = 40;     // pixels per level of the tree
-constexpr int bit_row = 15; // pixels per bit of a key
+constexpr int column = 46;     // pixels per key
+constexpr int row_height = 40; // pixels per level of the tree
+constexpr int bit_row = 15;    // pixels per bit of a key
 constexpr int margin = 30;
 constexpr const char* blue = "#1f5fa8";
 constexpr const char* red = "#c2410c";
@@ -23,7 +23,7 @@ int x_of(std::int64_t key)
 
 int y_of(int depth)
 {
-    return margin + row / 2 + depth * row;
+    return margin + row_height / 2 + depth * row_height;
 }
 
 class Svg {
@@ -87,7 +87,7 @@ std::string radix_tree_figure(ref::Codes codes, std::span<const std::uint32_t> p
     const std::vector<ref::Node> nodes = ref::radix_tree(codes);
     const std::vector<int> depth = depths(nodes);
     const int deepest = depth.empty() ? 0 : *std::max_element(depth.begin(), depth.end());
-    const int keys_top = y_of(deepest) + row / 2;
+    const int keys_top = y_of(deepest) + row_height / 2;
     const int bits = telling_bits(codes, code_bits);
     Svg svg;
 

@@ -1,6 +1,10 @@
 # PLUMBLINE_CUDA: AUTO uses nvcc if it is found, ON requires it, OFF builds without it.
 # Sets PLUMBLINE_WITH_CUDA. Included by the top folder: a language is enabled for a folder and the folders
 # below it, and programs outside cuda/ link device code.
+#
+# PLUMBLINE_CUDA_QUICK: device code with hardly any optimisation, slow on a GPU and compiled in half the time. For runs of
+# the tests on machines without a GPU, where device code is compiled and linked and never executed.
+option(PLUMBLINE_CUDA_QUICK "Compile the device code quickly and without most optimisations" OFF)
 set(PLUMBLINE_WITH_CUDA OFF)
 if(NOT PLUMBLINE_CUDA STREQUAL "OFF")
     include(CheckLanguage)
@@ -27,7 +31,11 @@ if(PLUMBLINE_WITH_CUDA)
         target_compile_options(plumbline_warnings INTERFACE
             "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:-Werror all-warnings -Xcompiler=-Wall,-Wextra,-Werror>")
     endif()
-    message(STATUS "Device code: nvcc ${CMAKE_CUDA_COMPILER_VERSION} (${CMAKE_CUDA_COMPILER}), sm_90 and PTX")
+    set(optimised "")
+    if(PLUMBLINE_CUDA_QUICK)
+        set(optimised ", compiled quickly: slow on a GPU")
+    endif()
+    message(STATUS "Device code: nvcc ${CMAKE_CUDA_COMPILER_VERSION} (${CMAKE_CUDA_COMPILER}), sm_90 and PTX${optimised}")
 else()
     message(STATUS "Device code: none (PLUMBLINE_CUDA is ${PLUMBLINE_CUDA}, nvcc ${CMAKE_CUDA_COMPILER}); everything else is built")
 endif()

@@ -16,18 +16,20 @@ std::optional<glm::dmat3> to_rec709(const std::filesystem::path& path, const Imf
     const Imf::Chromaticities stated = Imf::chromaticities(header);
     const Imf::Chromaticities rec709;
     if (stated == rec709) return std::nullopt;
-    const ImageError none(path, "its chromaticities are no primaries and white of colours");
+    const auto none = [&] {
+        return ImageError(path, "its chromaticities are no primaries and white of colours");
+    };
     Imath::M44f matrix; // for row vectors
     try {
         matrix = Imf::RGBtoXYZ(stated, 1.0f) * Imf::XYZtoRGB(rec709, 1.0f);
     } catch (const std::invalid_argument&) { // three primaries on a line, or a white without luminance
-        throw none;
+        throw none();
     }
     glm::dmat3 result;
     for (int from = 0; from < 3; ++from)
         for (int to = 0; to < 3; ++to) {
             const float value = matrix[from][to];
-            if (!std::isfinite(value)) throw none;
+            if (!std::isfinite(value)) throw none();
             result[from][to] = static_cast<double>(value);
         }
     return result;

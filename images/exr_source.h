@@ -21,7 +21,7 @@ struct PictureSource {
 /// else Y in the same order. If `layer` is not empty: those of the first layer of this name, or outside
 /// layers of the part of this name. Parts with deep data are passed over. Throws ImageError, with the
 /// names of layers or channels, if there is no such picture, or if it has subsampled chroma (Y, RY, BY).
-PictureSource find_picture(const std::filesystem::path& path, const std::vector<Imf::Header>& parts,
+PictureSource find_picture(const std::filesystem::path& path, const std::vector<Imf::Header>& headers,
                            const std::string& layer);
 
 /// The names of the layers that have R, G and B, other than the standard error.

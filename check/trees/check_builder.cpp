@@ -87,7 +87,7 @@ public:
     {
         const BuildAttempt attempt = attempts_(boxes, options_.timeout);
         if (stop()) return {}; // the run may have been cut short
-        const Problem problem = problem_of(attempt, boxes, options_.checks);
+        Problem problem = problem_of(attempt, boxes, options_.checks);
         if (!problem.any())
             report_.slowest_seconds = std::max(report_.slowest_seconds, attempt.seconds);
         else if (!report_.first)

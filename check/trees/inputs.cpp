@@ -46,8 +46,9 @@ Vec3 place_in_grid(std::size_t i, std::size_t n)
 {
     std::size_t side = 1;
     while (side * side * side < n) ++side;
+    const std::size_t layer = i / (side * side);
     return Vec3(static_cast<double>(i % side), static_cast<double>(i / side % side),
-                static_cast<double>(i / side / side));
+                static_cast<double>(layer));
 }
 
 /// What all boxes of a set have in common.

@@ -9,6 +9,13 @@ namespace {
 /// An empty kernel: if it runs, the machine code fits the device.
 __global__ void do_nothing() {}
 
+/// What a user should know about the device code of this program, if anything.
+#ifdef PLUMBLINE_CUDA_QUICK
+constexpr const char* remark = ", device code compiled quickly: slow";
+#else
+constexpr const char* remark = "";
+#endif
+
 /// CUDA counts versions as 1000 * major + 10 * minor.
 std::string version(int number)
 {
@@ -18,7 +25,7 @@ std::string version(int number)
 Device no_device(cudaError_t reason)
 {
     return {false, "built with nvcc " + std::to_string(__CUDACC_VER_MAJOR__) + "." +
-                       std::to_string(__CUDACC_VER_MINOR__) +
+                       std::to_string(__CUDACC_VER_MINOR__) + remark +
                        ", no CUDA device found: " + cudaGetErrorString(reason)};
 }
 
@@ -46,7 +53,7 @@ Device find_device()
 
     std::string description = std::string(properties.name) + ", sm_" + std::to_string(properties.major) +
                               std::to_string(properties.minor) + ", driver for CUDA " + version(driver) +
-                              ", " + std::to_string(properties.totalGlobalMem >> 30) + " GiB";
+                              ", " + std::to_string(properties.totalGlobalMem >> 30) + " GiB" + remark;
     do_nothing<<<1, 1>>>();
     cudaError_t error = cudaGetLastError(); // of the launch
     if (error == cudaSuccess) error = cudaDeviceSynchronize();

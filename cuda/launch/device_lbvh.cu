@@ -20,14 +20,14 @@ namespace fast {
 namespace {
 
 /// A CUDA event: a point in time on a stream.
-class Event {
+class StreamEvent {
 public:
-    Event() { check(cudaEventCreate(&event_)); }
-    ~Event() { cudaEventDestroy(event_); }
-    Event(const Event&) = delete;
-    Event& operator=(const Event&) = delete;
+    StreamEvent() { check(cudaEventCreate(&event_)); }
+    ~StreamEvent() { cudaEventDestroy(event_); }
+    StreamEvent(const StreamEvent&) = delete;
+    StreamEvent& operator=(const StreamEvent&) = delete;
     void record(cudaStream_t stream) const { check(cudaEventRecord(event_, stream)); }
-    [[nodiscard]] float milliseconds_since(const Event& start) const
+    [[nodiscard]] float milliseconds_since(const StreamEvent& start) const
     {
         float milliseconds = 0;
         check(cudaEventSynchronize(event_));
@@ -110,7 +110,7 @@ void DeviceLbvh::build_as_graph()
 
 std::array<float, 5> DeviceLbvh::time_stages()
 {
-    std::array<Event, 6> events;
+    std::array<StreamEvent, 6> events;
     events[0].record(parts_->stream.get());
     const auto finished = [&](Stage stage) {
         events[static_cast<std::size_t>(stage) + 1].record(parts_->stream.get());

@@ -89,8 +89,8 @@ struct FastCamera {
     {
         std::uint32_t pixel = 0;
         if (!camera_.project<float>(fast::Vec3(w), pixel)) return std::nullopt;
-        return FilmPlace{static_cast<double>(pixel % camera_pixels),
-                         static_cast<double>(pixel / camera_pixels), 1.0};
+        const std::uint32_t row = pixel / camera_pixels;
+        return FilmPlace{static_cast<double>(pixel % camera_pixels), static_cast<double>(row), 1.0};
     }
     [[nodiscard]] double density(const scenes::Vec3& w) const
     {

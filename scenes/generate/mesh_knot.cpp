@@ -129,7 +129,7 @@ int write(const char* path)
     return 2;
 }
 
-int check(const char* path)
+int compare_with(const char* path)
 {
     std::ifstream file(path, std::ios::binary);
     const std::string found{std::istreambuf_iterator<char>(file), {}};
@@ -143,7 +143,7 @@ int check(const char* path)
 int main(int count, char** arguments)
 {
     if (count == 2 && arguments[1][0] != '-') return write(arguments[1]);
-    if (count == 3 && std::string_view(arguments[1]) == "--check") return check(arguments[2]);
+    if (count == 3 && std::string_view(arguments[1]) == "--check") return compare_with(arguments[2]);
     std::fputs("usage: generate_mesh_knot [--check] FILE\n", stderr);
     return 2;
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tidy.sh ROOT BUILD NAME: clang-tidy finds no fault in the sources that BUILD/tidy/NAME.cpp includes, and in the
-# headers that they include. Those are all sources of one library, or of the program, or a part of them
-# (cmake/tidy.cmake): every check looks through all system headers, and this way it does so once.
+# headers that they include. Those are all sources of several folders (cmake/tidy.cmake): every check looks through all
+# system headers, and this way it does so once.
 # Tests are left out: gtest and RapidCheck in every file would take minutes.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/files.sh"

@@ -20,6 +20,18 @@ void altered(const ref::World& world, const ref::PathOptions& options, const ref
     for (std::size_t i = first; i < out.size(); ++i) alter(out[i]);
 }
 
+inline void change_nothing(Contribution& /*c*/) {}
+
+inline void dim_by_a_thousandth(Contribution& c)
+{
+    c.value *= 0.999;
+}
+
+inline void dim_one_pixel(Contribution& c)
+{
+    if (c.pixel == 0) c.value *= 0.9;
+}
+
 /// A factor of the camera that is off by one percent.
 inline void dim_by_one_percent(Contribution& c)
 {
