@@ -1,5 +1,6 @@
 """Who renders the scenes of ./run conformance, and how."""
 
+import hashlib
 import json
 import os
 import shutil
@@ -13,6 +14,8 @@ from peer import Peer
 
 MAX_EDGES = 6  # of the goldens
 ORIGIN = "origin.json"
+SCRIPTS = [os.path.join(HERE, name) for name in ("mitsuba_pictures.py", "luxcore_pictures.py", "../peers/luxcore_settings.py",
+                                                 "../peers/write_luxcore.py")]
 # LuxCore's bidirectional engine limits its two walks and not the path. With so many vertices of each, paths that are cut
 # off are too dark to matter; its pictures are judged by a golden without limit. Its roulette is biased (docs/results/
 # conformance.md), and without it walks in closed rooms take too long: these scenes are left out.
@@ -68,7 +71,7 @@ class Peers:
         integrator = renderer.others.get(scene, renderer.integrator)
         request = {"path": path, "spp": samples, "folder": folder, "integrator": integrator, "max_edges": renderer.max_edges}
         with open(path, encoding="utf-8") as file:
-            origin = {**request, "version": self.version(renderer), "scene": file.read()}
+            origin = {**request, "version": self.version(renderer), "scene": file.read(), "scripts": hash_of(SCRIPTS)}
         there = pictures_in(folder) if keep and origin_of(folder) == origin else {}
         if not there:
             shutil.rmtree(folder, ignore_errors=True)
@@ -85,6 +88,15 @@ class Peers:
     def stop(self):
         for peer in self.by_name.values():
             peer.stop()
+
+
+def hash_of(paths):
+    """Of the files' bytes, hexadecimal."""
+    digest = hashlib.sha256()
+    for path in paths:
+        with open(path, "rb") as file:
+            digest.update(file.read())
+    return digest.hexdigest()
 
 
 def pictures_in(folder):
