@@ -37,10 +37,10 @@ def render(path, spp, seeds, folder, integrator, max_edges, roulette=NEVER):
     files = []
     for seed in seeds:
         properties = pyluxcore.Properties()
-        chosen = settings(integrator, width, height, max_edges, os.cpu_count(), seed, roulette)
-        # A walk from a light has one edge less than the path that it makes with the camera.
-        walk = {"light.maxdepth": max_edges - 1} if integrator == "LIGHTCPU" else {}
-        for name, value in {**chosen, **walk, "batch.haltspp": spp}.items():
+        # A walk from a light has one edge less than the path that it makes with the camera. Its limit is path.pathdepth, too.
+        limit = max_edges - 1 if integrator == "LIGHTCPU" else max_edges
+        chosen = settings(integrator, width, height, limit, os.cpu_count(), seed, roulette)
+        for name, value in {**chosen, "batch.haltspp": spp}.items():
             properties.Set(pyluxcore.Property(name, value))
         files.append(os.path.join(folder, f"{seed}.pfm"))
         write_pfm(files[-1], picture(pyluxcore.RenderConfig(properties, scene), width, height), width, height)
