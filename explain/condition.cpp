@@ -32,7 +32,7 @@ std::string name_of_obstacle(const Strategy& strategy)
 }
 
 const std::vector<std::string> family_names = {"emission_hit", "next_event", "light_image",
-                                           "inner_connection"};
+                                               "inner_connection"};
 
 std::vector<std::string> obstacles()
 {

@@ -3,6 +3,7 @@
 #include "explain/names.h"
 #include "explain/view.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace {
@@ -14,8 +15,8 @@ using explain::Condition;
 using explain::Sample;
 using explain::Strategy;
 
-constexpr int columns = 6;
-constexpr int rows = 4;
+constexpr int columns = 30;
+constexpr int rows = 20;
 constexpr std::uint32_t samples = 5;
 
 struct Room {
@@ -80,9 +81,9 @@ TEST(ExplainSearch, FindsTheFirstOfAKind)
 TEST(ExplainSearch, SearchesOnePixelAlone)
 {
     const Room room;
-    const auto found = room.first("s=1,t=2", {samples, 9});
+    const auto found = room.first("s=1,t=2", {samples, 315});
     ASSERT_TRUE(found);
-    EXPECT_EQ(found->id.pixel, 9u);
+    EXPECT_EQ(found->id.pixel, 315u);
 }
 
 TEST(ExplainSearch, RefusesConditionsThatMeanNothing)
@@ -124,6 +125,11 @@ TEST(ExplainSearch, FindsTheSampleThatRaisesItsPixelMost)
     for (std::uint32_t number = 0; number < samples; ++number)
         for (std::uint32_t pixel = 0; pixel < columns * rows; ++pixel)
             EXPECT_LE(raise(pixel, number), raise(firefly->pixel, firefly->sample) + 1e-12);
+    // It is not the brightest pixel: there, every sample sees the lamp.
+    std::vector<double> mean(columns * rows, 0.0);
+    for (const auto& of_number : adds)
+        for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += of_number[i] / samples;
+    EXPECT_LT(firefly->mean, *std::ranges::max_element(mean));
     EXPECT_EQ(firefly->cause.id.pixel, of_largest.pixel);
     EXPECT_DOUBLE_EQ(firefly->adds, largest);
     EXPECT_NEAR(firefly->mean - firefly->others, raise(firefly->pixel, firefly->sample), 1e-12);
