@@ -1,9 +1,6 @@
 #include "golden/explain.h"
 
-#include "golden/judge.h"
-#include "golden/pixel_noise.h"
 #include "golden/reason.h"
-#include "golden/scatter.h"
 
 #include <algorithm>
 #include <array>
@@ -20,145 +17,7 @@ using images::Rgb;
 
 /// Of one look at one explanation. The right one is lost with at most this chance in each look.
 constexpr double rejection_level = 2e-4;
-/// Below it no further test of the explanation is made.
-constexpr double clear_level = 1e-12;
 constexpr std::size_t most_named = 3;
-
-Image without(const Image& picture, const Image& added)
-{
-    Image result = picture;
-    for (std::size_t i = 0; i < result.pixels.size(); ++i) result.pixels[i] -= added.pixels[i];
-    return result;
-}
-
-/// The noise that the explanation adds to a functional. Pixels are taken as independent.
-MeanEstimate noise_of(const Golden& golden, const Explanation& explanation, std::size_t functional,
-                      std::size_t channel)
-{
-    const Functionals& functionals = golden.functionals;
-    const Region& region = functionals.regions()[functionals.at(functional).region];
-    const auto c = static_cast<int>(channel);
-    double variance = 0.0;
-    for (int y = region.y0; y < region.y1; ++y)
-        for (int x = region.x0; x < region.x1; ++x) {
-            const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(golden.mean.width) +
-                           static_cast<std::size_t>(x);
-            const double error =
-                functionals.pixel_weight(functional, channel, i) * explanation.error.pixels[i][c];
-            variance += error * error;
-        }
-    return {0.0, variance, std::max(1.0, explanation.batches - 1.0)};
-}
-
-/// A functional of the candidate, and |skewness| / sqrt(n) of its noise.
-struct Estimate {
-    MeanEstimate value;
-    double skewed;
-    double scatter = 0.0; // Fit::scatter
-};
-
-/// Of a single picture, as compare_picture assumes its noise; `extra`: variance that it has besides.
-Estimate estimate_of_picture(const Golden& golden, const Image& picture, double value,
-                             const Moments& reference, double batches, double extra,
-                             std::size_t functional, std::size_t channel)
-{
-    Estimate estimate{{value, reference.variance / batches + extra, reference.count - 1.0},
-                      std::abs(reference.skewness) / std::sqrt(batches),
-                      0.0};
-    const Scatter shown = scatter(golden, picture, functional, channel);
-    estimate.scatter = shown.variance + shown.golden;
-    if (!(shown.variance > estimate.value.variance)) return estimate;
-    const double share = shown.variance / (shown.variance + shown.golden);
-    estimate.value.variance = shown.variance;
-    estimate.value.degrees = std::max(1.0, (shown.blocks - 1.0) * share * share);
-    estimate.skewed =
-        std::max(estimate.skewed, std::abs(shown.blocks_skewness) / std::sqrt(shown.blocks));
-    return estimate;
-}
-
-/// Of several pictures, each less the same explanation with its `noise`.
-Estimate estimate_of_pictures(const std::vector<double>& values, const PixelNoise& pixels,
-                              const Moments& reference, const MeanEstimate& noise)
-{
-    const Moments shown = moments(values);
-    const MeanEstimate mean = moderated(shown, pixels);
-    return {{mean.mean, mean.variance + noise.variance, welch_degrees(mean, noise)},
-            mean_skewness(shown, pixels, reference),
-            0.0};
-}
-
-/// The pictures, to which explanations are fitted.
-class Fitting {
-public:
-    Fitting(const Golden& golden, const std::vector<Image>& pictures, double samples,
-            const CompareOptions& options)
-        : golden_(golden), pictures_(pictures), batches_(samples / batch_size_of(golden)),
-          single_(pictures.size() == 1),
-          judge_(golden, single_ ? Method::picture : Method::welch, options)
-    {
-        Candidate candidate(golden.functionals);
-        if (!single_)
-            for (const Image& picture : pictures) candidate.add_batch(picture);
-        for (std::size_t f = 0; f < golden.functionals.size(); ++f)
-            for (std::size_t c = 0; c < channel_count; ++c) {
-                references_.push_back(moments(values_of(golden.reference, golden.functionals, f, c)));
-                const bool needed = !single_ && judge_.can_test(f);
-                pixels_.push_back(needed ? pixel_noise(candidate, f, c) : PixelNoise{});
-            }
-    }
-
-    [[nodiscard]] Fit fit(const Explanation& explanation) const
-    {
-        const Functionals& functionals = golden_.functionals;
-        std::vector<Image> undone;
-        std::vector<Row> rows;
-        for (const Image& picture : pictures_) {
-            undone.push_back(without(picture, explanation.adds));
-            rows.push_back(functionals.evaluate(undone.back()));
-        }
-        Fit result;
-        std::array<double, channel_count> detectable{};
-        detectable.fill(std::numeric_limits<double>::infinity());
-        for (std::size_t f = 0; f < functionals.size(); ++f)
-            for (std::size_t c = 0; c < channel_count; ++c) {
-                if (!judge_.can_test(f)) continue;
-                const Moments& reference = references_[f * channel_count + c];
-                const Estimate estimate = estimated(undone.front(), rows, explanation, f, c);
-                if (f == 0) result.scatter[c] = estimate.scatter;
-                const auto p = judge_.adjusted_p(estimate.value, estimate.skewed, reference, f, c);
-                if (!p) continue;
-                result.p = std::min(result.p, *p);
-                if (result.p < clear_level) return result;
-                if (functionals.regions()[functionals.at(f).region].kind != RegionKind::whole) continue;
-                const double found = judge_.compared(estimate.value, f, c).detectable;
-                // Where the golden is black nothing can be wrong by a factor.
-                detectable[c] = std::isnan(found) ? 0.0 : std::min(detectable[c], found);
-            }
-        result.detectable = *std::max_element(detectable.begin(), detectable.end());
-        return result;
-    }
-
-private:
-    [[nodiscard]] Estimate estimated(const Image& undone, const std::vector<Row>& rows,
-                                     const Explanation& explanation, std::size_t functional,
-                                     std::size_t channel) const
-    {
-        const MeanEstimate noise = noise_of(golden_, explanation, functional, channel);
-        const std::vector<double> values = values_of(rows, golden_.functionals, functional, channel);
-        const std::size_t at = functional * channel_count + channel;
-        if (!single_) return estimate_of_pictures(values, pixels_[at], references_[at], noise);
-        return estimate_of_picture(golden_, undone, values.front(), references_[at], batches_,
-                                   noise.variance, functional, channel);
-    }
-
-    const Golden& golden_;
-    const std::vector<Image>& pictures_;
-    double batches_; // of a single picture
-    bool single_;
-    Judge judge_;
-    std::vector<Moments> references_; // per functional, then channel
-    std::vector<PixelNoise> pixels_;  // the same, of several pictures
-};
 
 /// The largest relative difference of the whole picture among the channels.
 double difference(const Golden& golden, const std::vector<Image>& pictures)
@@ -267,12 +126,6 @@ std::string sentence(const std::vector<Explanation>& explanations,
 }
 
 } // namespace
-
-Fit fit(const Golden& golden, const std::vector<Image>& pictures, double samples,
-        const Explanation& explanation, const CompareOptions& options)
-{
-    return Fitting(golden, pictures, samples, options).fit(explanation);
-}
 
 std::string explain(const Golden& golden, const std::vector<Image>& pictures, double samples,
                     const MoreExplanations& more, const CompareOptions& options)

@@ -165,7 +165,7 @@ std::string say_possible_causes(const Comparison& comparison, const Golden& gold
     const Finding& suspicion = comparison.findings[*comparison.suspicion];
     const Finding& whole = whole_picture(comparison, suspicion.channel);
     const auto edges = golden.metadata.find("max_edges");
-    if (!diagnosed && whole.interval.low > 1.0 && edges != golden.metadata.end() && !candidate.contains("max_edges"))
+    if (whole.interval.low > 1.0 && edges != golden.metadata.end() && !candidate.contains("max_edges"))
         text += " The golden's paths have at most " + edges->second +
                 " edges, the camera's counted: a picture that is brighter nearly everywhere may have "
                 "longer ones.";

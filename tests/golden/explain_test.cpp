@@ -94,10 +94,12 @@ TEST_F(Explain, SeveralPicturesAreJudgedByTheirScatterAndTheNoiseOfTheExplanatio
         noisy.error.pixels[i] = Rgb(0.05) * reference().mean.pixels[i];
         noisy.adds.pixels[i] += 0.002 * reference().mean.pixels[i];
     }
-    const double p = golden::fit(reference(), pictures, samples, noisy).p;
+    const golden::CompareOptions options;
+    const golden::Fitting fitting(reference(), pictures, samples, options);
+    const double p = fitting.fit(noisy).p;
     noisy.error = Image(golden_test::size, golden_test::size);
     EXPECT_GT(p, 0.01);
-    EXPECT_LT(golden::fit(reference(), pictures, samples, noisy).p, 0.1 * p);
+    EXPECT_LT(fitting.fit(noisy).p, 0.1 * p);
 }
 
 TEST_F(Explain, FewSamplesAreEnoughForALargeMistake)
