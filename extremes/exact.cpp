@@ -54,7 +54,7 @@ Exact::Exact(const Exact& other)
 
 Exact& Exact::operator=(const Exact& other)
 {
-    Access::number(*this) = Access::number(other);
+    if (this != &other) Access::number(*this) = Access::number(other);
     return *this;
 }
 Exact& Exact::operator+=(const Exact& other)

@@ -146,29 +146,29 @@ std::array<double, 3> detectable_error(const Golden& golden, std::uint64_t batch
 }
 
 Comparison compare(const Golden& golden, const RenderStage& render, Method method,
-                   const CompareOptions& given)
+                   const CompareOptions& options)
 {
-    if (given.stages.empty()) throw std::invalid_argument("there is no stage to render");
-    CompareOptions options = given;
-    if (options.stages.size() > 1) options.suspicion_level = options.screening_level;
+    if (options.stages.empty()) throw std::invalid_argument("there is no stage to render");
+    CompareOptions staged = options;
+    if (options.stages.size() > 1) staged.suspicion_level = options.screening_level;
     Candidate first(golden.functionals);
-    render(0, options.stages[0], first);
-    Comparison comparison = first_stage(golden, first, method, options);
+    render(0, staged.stages[0], first);
+    Comparison comparison = first_stage(golden, first, method, staged);
     comparison.false_alarm =
-        options.dark_level +
-        false_alarm_bound(golden.functionals, method, golden.reference.size(), options.stages, options);
-    if (decide_at_once(comparison, options, options.stages.size() > 1)) return comparison;
+        staged.dark_level +
+        false_alarm_bound(golden.functionals, method, golden.reference.size(), staged.stages, staged);
+    if (decide_at_once(comparison, staged, staged.stages.size() > 1)) return comparison;
 
     const Finding suspicion = comparison.findings[*comparison.suspicion];
-    const Judge judge(golden, method, options);
-    for (std::size_t stage = 1; stage < options.stages.size(); ++stage) {
+    const Judge judge(golden, method, staged);
+    for (std::size_t stage = 1; stage < staged.stages.size(); ++stage) {
         Candidate fresh(golden.functionals);
-        render(stage, options.stages[stage], fresh);
+        render(stage, staged.stages[stage], fresh);
         const Finding again = judge.judge(fresh, suspicion.functional, suspicion.channel);
         const double p = again.conclusive ? one_sided(again.test, suspicion.test.z) : 1.0;
-        comparison.stages.push_back({fresh.batches(), p, options.confirmation_level});
-        if (p >= options.confirmation_level) {
-            pass_or_inconclusive(comparison, options,
+        comparison.stages.push_back({fresh.batches(), p, staged.confirmation_level});
+        if (p >= staged.confirmation_level) {
+            pass_or_inconclusive(comparison, staged,
                                  " (" + say_suspicion(comparison) +
                                      "; a fresh render did not confirm it, p = " + say(p, 2) + ".)");
             return comparison;

@@ -99,7 +99,7 @@ std::string diagnose(const Golden& golden, const Comparison& comparison,
     const std::optional<double> factor = factor_of(golden, pictures);
     if (factor)
         if (const auto known = known_factor(*factor, pictures, samples, judge)) return *known;
-    const std::string explained = explain ? explain() : "";
+    std::string explained = explain ? explain() : "";
     if (factor && passes(scaled(pictures, 1.0 / *factor), judge)) {
         if (!explained.empty())
             return explained + " It is as well " + say(*factor, 4) + " times the golden everywhere.";

@@ -45,7 +45,6 @@ public:
 private:
     [[nodiscard]] golden::Explanation explanation(const Mistake& mistake) const;
 
-    int longest_;
     ExplanationBudget budget_;
     ref::World world_;
     Mistakes mistakes_;
