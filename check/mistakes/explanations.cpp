@@ -33,8 +33,7 @@ std::uint32_t samples_per_pixel(int width, int height, const ExplanationBudget& 
 SceneExplanations::SceneExplanations(const scenes::Scene& scene, int width, int height,
                                      ref::PathOptions options, unsigned threads,
                                      const ExplanationBudget& budget)
-    : budget_(budget), world_(scene, width, height),
-      mistakes_(usual_mistakes(scene, options.max_edges)),
+    : budget_(budget), world_(scene, width, height), mistakes_(usual_mistakes(scene, options.max_edges)),
       pictures_(world_, with_one_edge_more(options), mistakes_.parts,
                 samples_per_pixel(width, height, budget), threads)
 {}

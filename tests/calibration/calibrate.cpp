@@ -155,6 +155,38 @@ void write_power(std::ostream& out, const Tick& tick)
     out << "\n";
 }
 
+constexpr std::array hard_cases = {Case{"-5% in the caustic", {.in_caustic = 0.95}},
+                                   Case{"-2% in the shadow", {.in_shadow = 0.98}}};
+
+Plan fresh_plan()
+{
+    return make_plan(128, 1, 20);
+}
+
+void write_fresh_power(std::ostream& out, const Tick& tick)
+{
+    out << "Share of FAILs of " << trials_of(fresh_plan())
+        << " candidates each, of pictures on which nothing was chosen:\n\n"
+           "| caustic: share of pixels, brightness, samples with light | shadow: samples with light | "
+           "noise | -5% in the caustic | -2% in the shadow |\n|---|---|---|---|---|\n";
+    for (const Layout& layout : fresh_layouts)
+        for (const Noise noise : noises) {
+            out << "| " << percent(layout.caustic_share) << ", "
+                << number("%.0f", layout.caustic_brightness) << " times, "
+                << percent(layout.light_in_caustic) << " | " << percent(layout.light_in_shadow) << " | "
+                << name(noise) << " |";
+            for (const Case& c : hard_cases) {
+                Plan plan = fresh_plan();
+                plan.tick = tick;
+                plan.layout = layout;
+                const Verdicts v = measure_verdicts(Method::ranks, noise, noise, c.bias, plan);
+                out << " " << number("%.2f", rate({v.fail, v.trials()})) << " |";
+            }
+            out << "\n";
+        }
+    out << "\n";
+}
+
 void write_other_estimators(std::ostream& out, const Tick& tick)
 {
     Plan plan = estimator_plan();
@@ -266,6 +298,9 @@ std::vector<Table> tables()
             {"false-alarms", write_false_alarms,
              static_cast<double>(noises.size()) * trials_of(false_alarm_plan())},
             {"power", write_power, power_trials},
+            {"fresh-power", write_fresh_power,
+             static_cast<double>(fresh_layouts.size() * noises.size() * hard_cases.size()) *
+                 trials_of(fresh_plan())},
             {"few-pictures", write_few_pictures,
              static_cast<double>(few_pictures.size() * few_noises.size()) *
                  (trials_of(few_right_plan()) +

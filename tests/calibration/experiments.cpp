@@ -144,8 +144,8 @@ FalseAlarms measure_false_alarms(Noise noise, const Plan& plan)
 Verdicts measure_verdicts(Method method, Noise golden_noise, Noise candidate_noise, const Bias& bias,
                           const Plan& plan)
 {
-    const SimulatedRenderer renderer(plan.size, golden_noise);
-    const SimulatedRenderer other(plan.size, candidate_noise);
+    const SimulatedRenderer renderer(plan.size, golden_noise, plan.layout);
+    const SimulatedRenderer other(plan.size, candidate_noise, plan.layout);
     Verdicts result;
     std::mutex mutex;
     for_each_trial(renderer, plan, [&](const Golden& golden, std::uint64_t seed) {

@@ -34,6 +34,7 @@ struct Plan {
     std::uint64_t seed = 1;
     unsigned threads = 1;
     Tick tick = {};
+    Layout layout = {};
 };
 
 /// The results for right pictures.

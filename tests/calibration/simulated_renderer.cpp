@@ -10,8 +10,6 @@ namespace calibration {
 namespace {
 
 constexpr std::size_t population_bits = 17;
-constexpr double chance_of_light_in_shadow = 0.5;
-constexpr double chance_of_light_in_caustic = 0.1;
 
 double draw(Noise noise, std::mt19937_64& random)
 {
@@ -79,21 +77,23 @@ std::string name(Noise noise)
     return "";
 }
 
-SimulatedRenderer::SimulatedRenderer(int size, Noise noise)
+SimulatedRenderer::SimulatedRenderer(int size, Noise noise, const Layout& layout)
     : size_(size), population_{make_population(noise, 1.0, 1),
-                               make_population(noise, chance_of_light_in_shadow, 2),
-                               make_population(noise, chance_of_light_in_caustic, 3)}
+                               make_population(noise, layout.light_in_shadow, 2),
+                               make_population(noise, layout.light_in_caustic, 3)}
 {
     const auto pixels = static_cast<double>(size * size);
-    const double caustic_radius = std::sqrt(0.03 * pixels / std::numbers::pi);
+    const double caustic_radius = std::sqrt(layout.caustic_share * pixels / std::numbers::pi);
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
             const double u = (x + 0.5) / size;
             const double v = (y + 0.5) / size;
             Place place{lit, images::Rgb(0.7, 0.6, 0.5) * (0.3 + 0.5 * u + 0.2 * v)};
-            if (u < 0.5 && v >= 0.5) place = {shadow, 0.1 * place.mean};
-            if (std::hypot(x - 0.7 * size, y - 0.7 * size) <= caustic_radius)
-                place = {caustic, 3.0 * place.mean};
+            if (u >= layout.shadow_left && u < layout.shadow_right && v >= layout.shadow_top &&
+                v < layout.shadow_bottom)
+                place = {shadow, 0.1 * place.mean};
+            if (std::hypot(x - layout.caustic_x * size, y - layout.caustic_y * size) <= caustic_radius)
+                place = {caustic, layout.caustic_brightness * place.mean};
             if (u + v < 0.1) place = {black, images::Rgb(0.0)};
             places_.push_back(place);
         }

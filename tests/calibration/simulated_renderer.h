@@ -32,12 +32,28 @@ struct Bias {
     double in_shadow = 1.0;
 };
 
+/// Where the parts of the picture are, in units of its width, and how hard their light is to find.
+struct Layout {
+    double shadow_left = 0.0, shadow_right = 0.5, shadow_top = 0.5, shadow_bottom = 1.0;
+    double caustic_x = 0.7, caustic_y = 0.7;
+    double caustic_share = 0.03;     // of all pixels
+    double caustic_brightness = 3.0; // times what is around it
+    double light_in_shadow = 0.5;    // share of the samples that find light
+    double light_in_caustic = 0.1;
+};
+/// Layouts on which no level or weight of the comparison was chosen.
+inline constexpr std::array fresh_layouts = {
+    Layout{0.6, 0.9, 0.1, 0.4, 0.3, 0.35, 0.05, 2.0, 0.3, 0.15},
+    Layout{0.1, 1.0, 0.8, 0.95, 0.55, 0.3, 0.02, 6.0, 0.7, 0.2},
+};
+
 /// Draws batches of 4 samples per pixel of a picture with a gradient, a quarter in shadow, a caustic on
-/// 3% of the pixels and a black corner. In the shadow 50% of the samples find no light, in the caustic
-/// 90%, so their noise is larger. This is how shadow rays, and paths that must hit a small lamp, behave.
+/// 3% of the pixels and a black corner, unless the layout says otherwise. In the shadow 50% of the
+/// samples find no light, in the caustic 90%, so their noise is larger. This is how shadow rays, and
+/// paths that must hit a small lamp, behave.
 class SimulatedRenderer {
 public:
-    SimulatedRenderer(int size, Noise noise);
+    SimulatedRenderer(int size, Noise noise, const Layout& layout = {});
 
     /// Batch number `batch` of the render with this seed. Red and green have the same noise, as under
     /// white light; the noise of blue is independent.
