@@ -178,7 +178,7 @@ TEST_P(OddScenes, AreRenderedRight)
         if (seed % groups != group) GTEST_SKIP() << "not the group of that seed";
         return expect_right(seed);
     }
-    const std::uint32_t scenes = std::getenv("PLUMBLINE_LONG") != nullptr ? 20000 : 200;
+    const std::uint32_t scenes = std::getenv("PLUMBLINE_LONG") != nullptr ? 20000 : 100;
     for (std::uint32_t seed = group; seed < scenes; seed += groups) expect_right(seed);
 }
 
