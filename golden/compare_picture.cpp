@@ -58,19 +58,10 @@ Comparison look_at_picture(const Golden& golden, const images::Image& picture, d
         for (std::size_t f = 0; f < functionals.size(); ++f) {
             if (!judge.can_test(f)) continue;
             const Moments reference = moments(values_of(golden.reference, functionals, f, c));
-            MeanEstimate estimate{values_of(row, functionals, f, c)[0], reference.variance / batches,
-                                  reference.count - 1.0};
-            double skewed = std::abs(reference.skewness) / std::sqrt(batches);
-            const Scatter shown = scatter(golden, picture, f, c);
-            if (shown.variance > estimate.variance) {
-                estimate.variance = shown.variance;
-                // Subtracting the golden's known part keeps the absolute error of the variance, so the
-                // relative error grows by 1 / share. Below one degree quantiles overflow.
-                const double share = shown.variance / (shown.variance + shown.golden);
-                estimate.degrees = std::max(1.0, (shown.blocks - 1.0) * share * share);
-                skewed = std::max(skewed, std::abs(shown.blocks_skewness) / std::sqrt(shown.blocks));
-            }
-            comparison.findings.push_back(judge.judge(estimate, skewed, f, c, film));
+            const PictureEstimate estimate =
+                picture_estimate(scatter(golden, picture, f, c), values_of(row, functionals, f, c)[0],
+                                 reference, batches);
+            comparison.findings.push_back(judge.judge(estimate.value, estimate.skewed, f, c, film));
         }
     summarise(comparison);
     summarise_reach(comparison, golden, options);

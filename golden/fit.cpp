@@ -1,6 +1,7 @@
 #include "golden/fit.h"
 
 #include "golden/scatter.h"
+#include "golden/weighted_pixels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,18 +27,12 @@ Image without(const Image& picture, const Image& added)
 MeanEstimate noise_of(const Golden& golden, const Explanation& explanation, std::size_t functional,
                       std::size_t channel)
 {
-    const Functionals& functionals = golden.functionals;
-    const Region& region = functionals.regions()[functionals.at(functional).region];
     const auto c = static_cast<int>(channel);
     double variance = 0.0;
-    for (int y = region.y0; y < region.y1; ++y)
-        for (int x = region.x0; x < region.x1; ++x) {
-            const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(golden.mean.width) +
-                           static_cast<std::size_t>(x);
-            const double error =
-                functionals.pixel_weight(functional, channel, i) * explanation.error.pixels[i][c];
-            variance += error * error;
-        }
+    for_each_pixel(golden.functionals, functional, channel, [&](std::size_t i, double weight) {
+        const double error = weight * explanation.error.pixels[i][c];
+        variance += error * error;
+    });
     return {0.0, variance, std::max(1.0, explanation.batches - 1.0)};
 }
 
@@ -112,16 +107,8 @@ Fitting::Estimate Fitting::of_picture(const Image& undone, double value, double 
 {
     const Moments& reference = references_[functional * channel_count + channel];
     const Scatter shown = scatter(golden_, undone, functional, channel);
-    Estimate estimate{{value, reference.variance / batches_ + extra, reference.count - 1.0},
-                      std::abs(reference.skewness) / std::sqrt(batches_),
-                      shown.variance + shown.golden};
-    if (!(shown.variance > estimate.value.variance)) return estimate;
-    const double share = shown.variance / (shown.variance + shown.golden);
-    estimate.value.variance = shown.variance;
-    estimate.value.degrees = std::max(1.0, (shown.blocks - 1.0) * share * share);
-    estimate.skewed =
-        std::max(estimate.skewed, std::abs(shown.blocks_skewness) / std::sqrt(shown.blocks));
-    return estimate;
+    const PictureEstimate estimate = picture_estimate(shown, value, reference, batches_, extra);
+    return {estimate.value, estimate.skewed, shown.variance + shown.golden};
 }
 
 } // namespace golden

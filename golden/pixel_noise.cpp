@@ -1,5 +1,7 @@
 #include "golden/pixel_noise.h"
 
+#include "golden/weighted_pixels.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,8 +9,6 @@ namespace golden {
 
 PixelNoise pixel_noise(const Candidate& candidate, std::size_t functional, std::size_t channel)
 {
-    const Functionals& functionals = candidate.functionals();
-    const Region& region = functionals.regions()[functionals.at(functional).region];
     const images::Image& squares = candidate.film().squares();
     const images::Image& cubes = candidate.cubes();
     const auto c = static_cast<int>(channel);
@@ -16,18 +16,13 @@ PixelNoise pixel_noise(const Candidate& candidate, std::size_t functional, std::
     double variance = 0.0;
     double fourth = 0.0; // sum of squared variances
     double third = 0.0;
-    for (int y = region.y0; y < region.y1; ++y)
-        for (int x = region.x0; x < region.x1; ++x) {
-            const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(squares.width) +
-                           static_cast<std::size_t>(x);
-            const double weight = functionals.pixel_weight(functional, channel, i);
-            if (weight == 0.0) continue;
-            const double own = weight * weight * squares.pixels[i][c] / (count - 1.0);
-            variance += own;
-            fourth += own * own;
-            // The unbiased third cumulant is B / ((B - 1) (B - 2)) times the sum of cubes [Fisher 1930].
-            third += weight * weight * weight * cubes.pixels[i][c];
-        }
+    for_each_pixel(candidate.functionals(), functional, channel, [&](std::size_t i, double weight) {
+        const double own = weight * weight * squares.pixels[i][c] / (count - 1.0);
+        variance += own;
+        fourth += own * own;
+        // The unbiased third cumulant is B / ((B - 1) (B - 2)) times the sum of cubes [Fisher 1930].
+        third += weight * weight * weight * cubes.pixels[i][c];
+    });
     PixelNoise noise;
     noise.variance = variance;
     if (!(variance > 0.0)) return noise;

@@ -1,28 +1,11 @@
 #include "golden/rare_events.h"
 
+#include "golden/weighted_pixels.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace golden {
-
-namespace {
-
-/// Calls visit(pixel, weight) for each pixel with a weight in the finding's functional.
-template <class Visit>
-void for_each_pixel(const Golden& golden, const Finding& finding, const Visit& visit)
-{
-    const Region& region = finding.region;
-    for (int y = region.y0; y < region.y1; ++y)
-        for (int x = region.x0; x < region.x1; ++x) {
-            const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(golden.mean.width) +
-                           static_cast<std::size_t>(x);
-            const double weight =
-                golden.functionals.pixel_weight(finding.functional, finding.channel, i);
-            if (weight != 0.0) visit(i, weight);
-        }
-}
-
-} // namespace
 
 bool lacks_rare_events(const Golden& golden, const Finding& finding)
 {
@@ -34,18 +17,19 @@ bool lacks_rare_events(const Golden& golden, const Finding& finding)
     const double all = before + after;
     double with_pilot = 0.0;
     double without = 0.0;
-    for_each_pixel(golden, finding, [&](std::size_t i, double weight) {
-        // The squared deviations of all batches are those of both parts from their own means, and those
-        // of the means [Chan et al. 1983, eq. 1.5].
-        const double error = golden.standard_error.pixels[i][c];
-        const double deviation = pilot.noise.pixels[i][c] * pilot.mean.pixels[i][c];
-        const double distance = (pilot.mean.pixels[i][c] - golden.mean.pixels[i][c]) * all / after;
-        const double squares = error * error * all * (all - 1.0);
-        const double others =
-            deviation * deviation * (before - 1.0) + distance * distance * before * after / all;
-        with_pilot += weight * weight * squares / (all - 1.0);
-        without += weight * weight * std::max(0.0, squares - others) / std::max(1.0, after - 1.0);
-    });
+    for_each_pixel(
+        golden.functionals, finding.functional, finding.channel, [&](std::size_t i, double weight) {
+            // The squared deviations of all batches are those of both parts from their own means, and
+            // those of the means [Chan et al. 1983, eq. 1.5].
+            const double error = golden.standard_error.pixels[i][c];
+            const double deviation = pilot.noise.pixels[i][c] * pilot.mean.pixels[i][c];
+            const double distance = (pilot.mean.pixels[i][c] - golden.mean.pixels[i][c]) * all / after;
+            const double squares = error * error * all * (all - 1.0);
+            const double others =
+                deviation * deviation * (before - 1.0) + distance * distance * before * after / all;
+            with_pilot += weight * weight * squares / (all - 1.0);
+            without += weight * weight * std::max(0.0, squares - others) / std::max(1.0, after - 1.0);
+        });
     return without < far_too_small * with_pilot;
 }
 
@@ -55,17 +39,18 @@ QuietPixels quiet_pixels(const Golden& golden, const Finding& finding, const ima
     const auto c = static_cast<int>(finding.channel);
     QuietPixels quiet;
     quiet.pictures = static_cast<double>(film.batches());
-    for_each_pixel(golden, finding, [&](std::size_t i, double weight) {
-        const double own = golden.mean.pixels[i][c];
-        const double by_rounding = rounding * (own > 0.0 ? own : brightness);
-        const double further = film.mean().pixels[i][c] - own;
-        const double scatter = std::sqrt(film.squares().pixels[i][c] / quiet.pictures);
-        if (std::abs(further) <= by_rounding || scatter > by_rounding ||
-            golden.standard_error.pixels[i][c] > by_rounding)
-            return;
-        ++quiet.pixels;
-        quiet.difference += weight * further;
-    });
+    for_each_pixel(golden.functionals, finding.functional, finding.channel,
+                   [&](std::size_t i, double weight) {
+                       const double own = golden.mean.pixels[i][c];
+                       const double by_rounding = rounding * (own > 0.0 ? own : brightness);
+                       const double further = film.mean().pixels[i][c] - own;
+                       const double scatter = std::sqrt(film.squares().pixels[i][c] / quiet.pictures);
+                       if (std::abs(further) <= by_rounding || scatter > by_rounding ||
+                           golden.standard_error.pixels[i][c] > by_rounding)
+                           return;
+                       ++quiet.pixels;
+                       quiet.difference += weight * further;
+                   });
     return quiet;
 }
 

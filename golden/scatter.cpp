@@ -1,7 +1,5 @@
 #include "golden/scatter.h"
 
-#include "golden/statistics.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -50,6 +48,22 @@ Scatter scatter(const Golden& golden, const images::Image& picture, std::size_t 
             found.count,
             noisy_blocks,
             found.skewness};
+}
+
+PictureEstimate picture_estimate(const Scatter& shown, double value, const Moments& reference,
+                                 double batches, double extra)
+{
+    PictureEstimate estimate{{value, reference.variance / batches + extra, reference.count - 1.0},
+                             std::abs(reference.skewness) / std::sqrt(batches)};
+    if (!(shown.variance > estimate.value.variance)) return estimate;
+    // Subtracting the golden's known part keeps the absolute error of the variance, so the relative
+    // error grows by 1 / share. Below one degree quantiles overflow.
+    const double share = shown.variance / (shown.variance + shown.golden);
+    estimate.value.variance = shown.variance;
+    estimate.value.degrees = std::max(1.0, (shown.blocks - 1.0) * share * share);
+    estimate.skewed =
+        std::max(estimate.skewed, std::abs(shown.blocks_skewness) / std::sqrt(shown.blocks));
+    return estimate;
 }
 
 } // namespace golden

@@ -3,6 +3,7 @@
 // The noise of a single picture, as its pixels show it.
 
 #include "golden/golden.h"
+#include "golden/statistics.h"
 #include "images/image.h"
 
 #include <cstddef>
@@ -25,5 +26,17 @@ struct Scatter {
 /// because reconstruction filters make neighbouring pixels depend on each other.
 Scatter scatter(const Golden& golden, const images::Image& picture, std::size_t functional,
                 std::size_t channel);
+
+/// A functional of a picture, and |skewness| / sqrt(n) of its noise.
+struct PictureEstimate {
+    MeanEstimate value;
+    double skewed;
+};
+
+/// Its noise is assumed to be that of the golden's estimator for so many `batches`, of which `reference`
+/// are the moments, and `extra`, a variance that it has besides; or what the pixels show, if that is
+/// more.
+PictureEstimate picture_estimate(const Scatter& shown, double value, const Moments& reference,
+                                 double batches, double extra = 0.0);
 
 } // namespace golden

@@ -168,8 +168,7 @@ void decide_without(Comparison& comparison, const Comparison& without, const Com
     comparison.false_alarm += options.certainty_level;
     const std::string them = bright_pixels(comparison.odd).size() == 1 ? "it" : "them";
     // Removing bright pixels makes a picture darker, so only a difference to the bright side counts.
-    if (without.p < options.suspicion_level &&
-        without.findings[*without.suspicion].certain_p < options.certainty_level &&
+    if (without.suspicion && without.findings[*without.suspicion].certain_p < options.certainty_level &&
         without.findings[*without.suspicion].test.z > 0.0) {
         comparison.verdict = Verdict::fail;
         give_reason(comparison, "Without " + them + ", " + say_suspicion(without) +
