@@ -230,7 +230,7 @@ fast::Hit intersect_with_masks(const fast::Surfaces<false>& surfaces, const fast
     return best;
 }
 
-RC_GTEST_PROP(WideTree, BothTraversalsFindTheSameHits, ())
+RC_GTEST_PROP(WideTree, BothTraversalsFindTheSameHits, ()) // map: traversal
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     Narrow narrow(*rc::gen::inRange<std::size_t>(0, 1000), random);

@@ -35,7 +35,7 @@ const View views[] = {{0.6, scenes::FovAxis::horizontal, 30, 20},
 
 // At the edges of a wide picture the cosine is c = cos(fov / 2): the roundoff of a direction moves the
 // film point by 1 / c^2 half widths.
-RC_GTEST_PROP(Camera, ProjectsARayBackToItsFilmPoint, ())
+RC_GTEST_PROP(Camera, ProjectsARayBackToItsFilmPoint, ()) // map: camera-projection
 {
     const View view = *rc::gen::elementOf(std::vector<View>(std::begin(views), std::end(views)));
     const Camera camera(oblique(view.fov, view.axis), view.width, view.height);
@@ -52,7 +52,7 @@ RC_GTEST_PROP(Camera, ProjectsARayBackToItsFilmPoint, ())
 
 // The corners of the picture by their angles: the field of view has the given size, up is up, and
 // right is right.
-TEST(Camera, SeesTheFieldOfViewThatItIsGiven)
+TEST(Camera, SeesTheFieldOfViewThatItIsGiven) // map: camera-ray
 {
     for (const View& view : views) {
         const auto data = oblique(view.fov, view.axis);
@@ -95,7 +95,7 @@ TEST(Camera, SeesNothingBehindItNorBesideThePicture)
 
 // The integer part of a film point is its pixel, and the fraction the position in it; rows are counted
 // from the top.
-TEST(Camera, CountsPixelsFromTheTopLeft)
+TEST(Camera, CountsPixelsFromTheTopLeft) // map: film-position
 {
     const auto data = oblique(1.0, scenes::FovAxis::horizontal);
     const Camera camera(data, 30, 20);
@@ -129,7 +129,7 @@ double over_the_picture(const Camera& camera, const scenes::Camera& data, Functi
 // pdf and W_e cos are 1 / (A c^3). At the border of the picture the midpoint rule has an error of less
 // than one cell, at each of about 2 x 1600 cells, and errors of both signs cancel. The tolerance of
 // 1e-3 is 20 times the observed error; a wrong power of the cosine or a missing area is 5% and more.
-TEST(Camera, DensityAndImportanceIntegrateToOne)
+TEST(Camera, DensityAndImportanceIntegrateToOne) // map: importance, camera-density
 {
     for (const View& view : views) {
         const auto data = oblique(view.fov, view.axis);
@@ -148,7 +148,7 @@ TEST(Camera, DensityAndImportanceIntegrateToOne)
 
 // Uniform film points over the whole picture give directions with the camera's density: on the unit
 // square of (1 - z, phi), equal in area, as far from the axis as the picture extends.
-TEST(Camera, DirectionsFollowTheirDensity)
+TEST(Camera, DirectionsFollowTheirDensity) // map: camera-density
 {
     for (const View& view : views) {
         const auto data = oblique(view.fov, view.axis);

@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# python.sh SCRIPT ARGUMENT...: the check in SCRIPT, which is beside this file and in Python.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$here/files.sh"
+require python3
+exec python3 -B "$here/$1" "${@:2}"
