@@ -152,7 +152,6 @@ HD F inner_connection_weight(Heuristic heuristic, const SubpathEndOf<F>& y, cons
 template <class F>
 HD F balance_of_two(const F& pdf, const F& pdf_other)
 {
-    // map: two-strategies
     return weight_of_sums(F(0.0f), pdf_other / pdf); // (6); [Veach 1997, sec. 9.2.2]
 }
 
@@ -163,6 +162,7 @@ template <class F>
 HD F path_emission_hit_weight(const MaskOf<F>& previous_joinable, const F& pdf_hit,
                               const F& pdf_next_event)
 {
+    // map: weight-of-hit
     return select(previous_joinable, balance_of_two(pdf_hit, pdf_next_event), F(1.0f)); // (6)
 }
 
@@ -170,7 +170,7 @@ HD F path_emission_hit_weight(const MaskOf<F>& previous_joinable, const F& pdf_h
 template <class F>
 HD F path_next_event_weight(const F& pdf_hit, const F& pdf_next_event)
 {
-    return balance_of_two(pdf_next_event, pdf_hit); // (6)
+    return balance_of_two(pdf_next_event, pdf_hit); // (6); map: weight-of-event
 }
 
 } // namespace fast

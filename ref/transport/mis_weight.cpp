@@ -53,15 +53,15 @@ VertexDensities vertex_densities(const World& world, const PathOptions& options,
     // The light walk makes x_0 ... x_{k-1}; it cannot hit the pinhole x_k.
     p.light[0] = pdf_emission_position(*x[0]);
     if (k >= 2) p.light[1] = pdf_area_emission_direction(world, *x[0], *x[1]);
-    // map: density-light
-    for (std::size_t i = 2; i < k; ++i) // from x_{i-1}, the walk's bounce number i - 1
+    for (std::size_t i = 2; i < k; ++i)
+        // from x_{i-1}, the walk's bounce number i - 1; map: density-light
         p.light[i] = pdf_next(world, options, *x[i - 2], *x[i - 1], static_cast<int>(i) - 1, *x[i]);
 
     // The eye walk makes x_k ... x_0. The pinhole has probability 1; a delta emitter cannot be hit.
     p.eye[k] = 1.0;
     p.eye[k - 1] = pdf_camera(world, *x[k], *x[k - 1]); // map: density-z1
-    // map: density-eye
-    for (std::size_t i = 0; i + 2 <= k; ++i) // from x_{i+1}, the walk's bounce number k - i - 1
+    for (std::size_t i = 0; i + 2 <= k; ++i)
+        // from x_{i+1}, the walk's bounce number k - i - 1; map: density-eye
         p.eye[i] = pdf_next(world, options, *x[i + 2], *x[i + 1], static_cast<int>(k - i) - 1, *x[i]);
     if (!can_be_hit(*x[0]->emitter)) p.eye[0] = 0.0;
     return p;
@@ -84,8 +84,8 @@ std::vector<double> density_quotients(const World& world, const Path& x, const V
 {
     const std::size_t k = x.size() - 1;
     std::vector<double> quotients(k + 1, 1.0);
-    for (std::size_t i = s; i > 0; --i) // map: density-ratio [Veach 1997, eq. 10.9]
-        quotients[i - 1] = quotients[i] * (p.eye[i - 1] / p.light[i - 1]);
+    for (std::size_t i = s; i > 0; --i)
+        quotients[i - 1] = quotients[i] * (p.eye[i - 1] / p.light[i - 1]); // map: density-ratio
     for (std::size_t i = s; i < k; ++i) quotients[i + 1] = quotients[i] * (p.light[i] / p.eye[i]);
     for (std::size_t i = 0; i <= k; ++i)
         if (!is_possible(world, x, i)) quotients[i] = 0.0; // map: impossible

@@ -10,7 +10,7 @@ namespace {
 /// `pdf_light`.
 double weight_of_hit(const EyeWalk& walk, double pdf_light)
 {
-    return walk.delta ? 1.0 : walk.pdf / (walk.pdf + pdf_light); // map: two-strategies
+    return walk.delta ? 1.0 : walk.pdf / (walk.pdf + pdf_light); // map: weight-of-hit
 }
 
 } // namespace
@@ -71,7 +71,7 @@ std::optional<Contribution> next_event_of_vertex(const World& world, const PathO
     const double pdf_hit = light->delta ? 0.0 : pdf_of_bounce(options, j, vertex, wi_local);
     // map: next-event
     const Rgb value = walk.throughput * f * std::abs(wi_local.z) * light->radiance / light->pdf;
-    // map: two-strategies
+    // map: weight-of-event
     return Contribution{id.pixel, 1, j + 1, value, light->pdf / (light->pdf + pdf_hit)};
 }
 

@@ -4,7 +4,7 @@
     map.py ROOT --check          exit status 1, and what is wrong, unless map and tags are complete and up to date
     map.py ROOT --run PLUMBLINE  runs the commands of the table: each must print the words that the table gives
 
-A tag stands in a comment on the line that computes a formula, or just above it: "// map: fresnel". It may name several
+A tag stands at the end of a comment, on the line that computes a formula or just above it: "// map: fresnel". It may name several
 steps, and cite the source of the last: "// map: area-conversion [Veach 1997, eq. 8.10]". In tests/ it stands on the first
 line of a test, or above it.
 """
@@ -31,6 +31,7 @@ COLUMNS = {"ref": ("ref", "images"), "cuda": ("cuda", "images"), "tests": ("test
 class Tag(NamedTuple):
     file: str
     line: int
+    code: int  # the line that it is about: its own, or where that is a comment alone, the next that is not
     name: str
     citation: str | None
     test: str | None  # Suite.Name, in tests/
@@ -47,7 +48,8 @@ def tags_of(root: pathlib.Path) -> tuple[list[Tag], list[str]]:
             found = TAG.search(line)
             if not found:
                 continue
-            test = test_at(lines, number) if file.startswith("tests/") else None
+            code = code_at(lines, number)
+            test = test_at(lines, code) if file.startswith("tests/") else None
             if file.startswith("tests/") and test is None:
                 errors.append(f"{file}:{number}: a tag in tests/ stands on the first line of a test, or above it")
             steps = STEPS.fullmatch(found[1])
@@ -55,16 +57,20 @@ def tags_of(root: pathlib.Path) -> tuple[list[Tag], list[str]]:
                 errors.append(f'{file}:{number}: a tag is "map: step, step [source]" and ends its line, not "{found[0]}"')
                 continue
             names = steps[1].split(", ")
-            tags += [Tag(file, number, name, steps[2] if name == names[-1] else None, test) for name in names]
+            tags += [Tag(file, number, code, n, steps[2] if n == names[-1] else None, test) for n in names]
     return tags, errors
 
 
+def code_at(lines: list[str], number: int) -> int:
+    """The line `number`, or if it is a comment alone, the next that is not. Lines are counted from 1."""
+    while number < len(lines) and lines[number - 1].lstrip().startswith("//"):
+        number += 1
+    return number
+
+
 def test_at(lines: list[str], number: int) -> str | None:
-    """The test that begins on line `number`, or below it after comments alone."""
-    at = number - 1
-    while at < len(lines) and lines[at].startswith("//"):
-        at += 1
-    found = TEST.match("\n".join(lines[at : at + 2]))
+    """The test that begins on line `number`."""
+    found = TEST.match("\n".join(lines[number - 1 : number + 1]))
     return f"{found[1]}.{found[2]}" if found else None
 
 
@@ -138,7 +144,7 @@ def row(step: dict, tags: list[Tag], commands: dict) -> str:
     cells = [f"<a id=\"{step['name']}\"></a>**{step['title']}**{paper}<br> ${step['formula']}$"]
     for column in COLUMNS:
         links = [
-            f"[{t.test.replace('.', '.<wbr>') if t.test else f'{pathlib.Path(t.file).name}:{t.line}'}](../{t.file}#L{t.line})"
+            f"[{t.test.replace('.', '.<wbr>') if t.test else f'{pathlib.Path(t.file).name}:{t.code}'}](../{t.file}#L{t.code})"
             for t in in_column(tags, step, column)
         ]
         cells.append("<br>".join(links) or step["no_cuda"])

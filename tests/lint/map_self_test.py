@@ -72,8 +72,9 @@ class MapTest(SmallTree):
         self.assertTrue(page.startswith("# Map\n") and page.endswith("After.\n"))
         row = next(line for line in page.split("\n") if 'id="fresnel"' in line)
         for link in ("[bsdf.h:2](../ref/bsdf.h#L2)", "[bsdf.h:1](../cuda/bsdf.h#L1)", "Fresnel.<wbr>Holds",
-                     "[FresnelInFloat.<wbr>Holds](../tests/cuda/bsdf_test.cpp#L1)", "[glass](bsdf.md#2-glass-and-mirrors)"):
+                     "[FresnelInFloat.<wbr>Holds](../tests/cuda/bsdf_test.cpp#L3)", "[glass](bsdf.md#2-glass-and-mirrors)"):
             self.assertIn(link, row)
+        self.assertIn("[sah.h:2](../ref/sah.h#L2)", page)
         self.assertIn("Only the reference has it.", page)
 
     def test_a_line_that_moved_is_found_and_renewed(self):
@@ -165,6 +166,7 @@ class TwoClicksTest(SmallTree):
 
     def test_two_clicks_lead_there(self):
         self.assertEqual(self.fault(), "")
+        self.assertEqual(self.fault(name="Split", formula="A N"), "")
 
     def test_a_first_page_without_the_link_is_found(self):
         self.change("README.md", "docs/map.md", "docs/bsdf.md")
@@ -177,6 +179,12 @@ class TwoClicksTest(SmallTree):
     def test_a_link_to_another_line_is_found(self):
         self.change("ref/bsdf.h", "int a;", "int a;\nint b;")
         self.assertEqual(self.fault(), "bsdf.h:2 has no tag fresnel")
+
+    def test_code_between_tag_and_line_is_found(self):
+        self.change("ref/sah.h", "// map: sah", "// map: sah\nint b;")
+        self.assertEqual(self.fault(name="Split", formula="A N"), "")
+        self.change("docs/map.md", "[sah.h:2](../ref/sah.h#L2)", "[sah.h:3](../ref/sah.h#L3)")
+        self.assertEqual(self.fault(name="Split", formula="A N"), "sah.h:3 has no tag sah")
 
     def test_a_line_of_another_formula_is_found(self):
         self.change("cuda/bsdf.h", "map: fresnel", "map: fresnel-more")

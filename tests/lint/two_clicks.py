@@ -4,7 +4,7 @@
 
 The first page is docs/index.md (without it, README.md). The first click leads to a page, and there the formula is found by
 its name: on one line, the name, the formula and links to code. The second click is one of these links. It must lead to a line
-of code that says, by its tag ("// map: fresnel"), that it is of this formula.
+of code that says, by its tag ("// map: fresnel") or by one in the comment just above it, that it is of this formula.
 """
 import pathlib
 import re
@@ -58,9 +58,12 @@ def fault_of_line(page: pathlib.Path, line: str) -> str:
     folders = set()
     for file, place in links(page, line):
         if number := re.fullmatch(r"L(\d+)", place):
-            lines = file.read_text(encoding="utf-8").split("\n")
-            there = lines[int(number[1]) - 1] if int(number[1]) <= len(lines) else ""
-            if not re.search(rf"// (?:.*; )?map: (?:.*, )?{anchor[1]}(?:,| \[|$)", there):
+            lines = file.read_text(encoding="utf-8").split("\n")[: int(number[1])]
+            there = lines[-1:]
+            while len(there) < len(lines) and lines[-len(there) - 1].lstrip().startswith("//"):
+                there = lines[-len(there) - 1 :]
+            tag = re.compile(rf"// (?:.*; )?map: (?:.*, )?{anchor[1]}(?:,| \[|$)", re.M)
+            if lines[-1].lstrip().startswith("//") or not tag.search("\n".join(there)):
                 return f"{file.name}:{number[1]} has no tag {anchor[1]}"
             folders.add("tests" if "tests" in file.parts else "code")
     return "" if folders == {"tests", "code"} else "no link there leads to " + ({"code", "tests"} - folders).pop()

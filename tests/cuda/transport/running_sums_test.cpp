@@ -168,7 +168,8 @@ RC_GTEST_PROP(RunningSums, GiveStrategiesAtTheEndsOfAPathTheirShare, ())
 }
 
 /// The weights of path tracing's two strategies add up to 1 for every path that both can make.
-RC_GTEST_PROP(RunningSums, BalanceTheTwoStrategiesOfPathTracing, ()) // map: two-strategies
+// map: weight-of-hit, weight-of-event
+RC_GTEST_PROP(RunningSums, BalanceTheTwoStrategiesOfPathTracing, ())
 {
     const float hit = any_density();
     const float next_event = any_density();
