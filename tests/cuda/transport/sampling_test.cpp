@@ -12,7 +12,7 @@ namespace {
 
 // 2^-24 is the unit roundoff of floats. The polynomials, their rounding and that of the angle add up to
 // less than twice that; a cosine near 1 is itself rounded by half of it.
-TEST(OnCircle, ErrsByLessThanTwoRoundingsForEveryNumber) // map: cosine-sampling
+TEST(OnCircle, ErrsByLessThanTwoRoundingsForEveryNumber)
 {
     double worst = 0;
     for (std::uint32_t i = 0; i < 1u << 24; i += 7) {

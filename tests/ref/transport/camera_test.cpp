@@ -1,4 +1,5 @@
 #include "ref/transport/camera.h"
+#include "ref/transport/world.h"
 #include "tests/ref/transport/chi_squared.h"
 #include "tests/ref/transport/generators.h"
 #include "tests/ref/transport/random_scene.h"
@@ -95,7 +96,7 @@ TEST(Camera, SeesNothingBehindItNorBesideThePicture)
 
 // The integer part of a film point is its pixel, and the fraction the position in it; rows are counted
 // from the top.
-TEST(Camera, CountsPixelsFromTheTopLeft) // map: film-position
+TEST(Camera, CountsPixelsFromTheTopLeft)
 {
     const auto data = oblique(1.0, scenes::FovAxis::horizontal);
     const Camera camera(data, 30, 20);
@@ -105,6 +106,33 @@ TEST(Camera, CountsPixelsFromTheTopLeft) // map: film-position
     const double half = std::tan(0.5);
     EXPECT_NEAR(film->x, 15 * (1 - 0.2 / half), 1e-13);
     EXPECT_NEAR(film->y, 10 * (1 - 0.1 / (half * 20 / 30)), 1e-13);
+}
+
+// Uniform and independent in both directions: the moments E x^2 = E y^2 = 1/3 and E x y = 1/4 have
+// standard deviations of sqrt(4/45) and sqrt(7/144) over the root of the number of samples. Five of them
+// are allowed; the centre of the pixel for all samples, or one number for both directions, is 16 and
+// more away.
+TEST(CameraRay, PassesThroughAUniformPointOfItsPixel) // map: film-position
+{
+    scenes::Scene scene;
+    scene.camera = oblique(1.0, scenes::FovAxis::horizontal);
+    const ref::World world(scene, 7, 5);
+    constexpr std::uint32_t samples = 100;
+    constexpr std::uint32_t pixels = 7 * 5;
+    Vec3 moments(0.0);
+    for (std::uint32_t i = 0; i < samples * pixels; ++i) {
+        const std::uint32_t pixel = i / samples;
+        const auto film = world.camera.project(camera_ray(world, {3, pixel, i % samples}).direction);
+        ASSERT_TRUE(film.has_value());
+        const glm::dvec2 in_pixel = *film - glm::dvec2(pixel % 7, pixel / 7);
+        ASSERT_TRUE(in_pixel.x > 0 && in_pixel.x < 1 && in_pixel.y > 0 && in_pixel.y < 1) << i;
+        moments += Vec3(in_pixel.x * in_pixel.x, in_pixel.y * in_pixel.y, in_pixel.x * in_pixel.y);
+    }
+    const double five = 5.0 / std::sqrt(samples * pixels);
+    moments /= samples * pixels;
+    EXPECT_NEAR(moments.x, 1.0 / 3.0, five * std::sqrt(4.0 / 45.0));
+    EXPECT_NEAR(moments.y, 1.0 / 3.0, five * std::sqrt(4.0 / 45.0));
+    EXPECT_NEAR(moments.z, 0.25, five * std::sqrt(7.0 / 144.0));
 }
 
 /// The integral over the directions of the picture, by midpoints in the spherical angles around the

@@ -153,7 +153,7 @@ TEST(ClosedForm, SpotLightOverPlaneWithTheShadowsOfTwoCards) // map: emission-sp
 // A sphere wholly above the horizon lights a plane with E = pi L (r/d)^2 cos, for any size of the
 // sphere. The whole picture and its quarters are compared with the closed form, integrated over each
 // pixel with 16 x 16 points.
-TEST(ClosedForm, LuminousSphereOverPlane)
+TEST(ClosedForm, LuminousSphereOverPlane) // map: weight-of-hit, weight-of-event
 {
     const scenes::Scene scene = transport_test::our_scene("sphere_over_plane");
     const auto& ball = scene.spheres.at(0);

@@ -167,6 +167,7 @@ TEST(Traverse,
     EXPECT_GT(hits, 300000u);
 }
 
+// map: slabs
 TEST(Slabs,
      AreEnteredBeforeAnythingInThemIsHit) // the condition that the padding must meet, for each primitive
 {
