@@ -139,14 +139,19 @@ def errors_of_link(docs: pathlib.Path, target: str) -> list[str]:
     return [] if not anchor or anchor in map(slug, headings) else [f"docs/{page} has no heading #{anchor}"]
 
 
+def link_text(tag: Tag) -> str:
+    """Of a test its name as words, which a narrow column can break."""
+    if tag.test is None:
+        return f"{pathlib.Path(tag.file).name}:{tag.code}"
+    suite, name = tag.test.split(".")
+    return suite + ":" + re.sub("[A-Z]", lambda letter: " " + letter[0].lower(), name)
+
+
 def row(step: dict, tags: list[Tag], commands: dict) -> str:
     paper = f" [{step['paper']}]" if step["paper"] else ""
     cells = [f"<a id=\"{step['name']}\"></a>**{step['title']}**{paper}<br> ${step['formula']}$"]
     for column in COLUMNS:
-        links = [
-            f"[{t.test.replace('.', '.<wbr>') if t.test else f'{pathlib.Path(t.file).name}:{t.code}'}](../{t.file}#L{t.code})"
-            for t in in_column(tags, step, column)
-        ]
+        links = [f"[{link_text(t)}](../{t.file}#L{t.code})" for t in in_column(tags, step, column)]
         cells.append("<br>".join(links) or step["no_cuda"])
     shows = [
         f"[{target}](#command-{target}): `{words}`" if target in commands else f"[{words}]({target})"

@@ -34,7 +34,7 @@ FILES = {
     "ref/bsdf.h": "int a;\nint f(); // map: fresnel [Born & Wolf 1999, sec. 1.5.2]\n",
     "ref/sah.h": "// map: sah\nint s();\n",
     "cuda/bsdf.h": "int f(); // Snell; map: fresnel\n",
-    "tests/ref/bsdf_test.cpp": "TEST(Fresnel, Holds) // map: fresnel\n{}\n// map: sah\nTEST(Sah, IsLeast)\n{}\n",
+    "tests/ref/bsdf_test.cpp": "TEST(Fresnel, HoldsOnBothSides) // map: fresnel\n{}\n// map: sah\nTEST(Sah, IsLeast)\n{}\n",
     "tests/cuda/bsdf_test.cpp": "// map: fresnel\n// By the path.\nRC_GTEST_PROP(FresnelInFloat,\n              Holds, ())\n",
 }
 
@@ -71,8 +71,8 @@ class MapTest(SmallTree):
         page = (self.root / "docs/map.md").read_text()
         self.assertTrue(page.startswith("# Map\n") and page.endswith("After.\n"))
         row = next(line for line in page.split("\n") if 'id="fresnel"' in line)
-        for link in ("[bsdf.h:2](../ref/bsdf.h#L2)", "[bsdf.h:1](../cuda/bsdf.h#L1)", "Fresnel.<wbr>Holds",
-                     "[FresnelInFloat.<wbr>Holds](../tests/cuda/bsdf_test.cpp#L3)", "[glass](bsdf.md#2-glass-and-mirrors)"):
+        for link in ("[bsdf.h:2](../ref/bsdf.h#L2)", "[bsdf.h:1](../cuda/bsdf.h#L1)", "Fresnel: holds on both sides",
+                     "[FresnelInFloat: holds](../tests/cuda/bsdf_test.cpp#L3)", "[glass](bsdf.md#2-glass-and-mirrors)"):
             self.assertIn(link, row)
         self.assertIn("[sah.h:2](../ref/sah.h#L2)", page)
         self.assertIn("Only the reference has it.", page)
