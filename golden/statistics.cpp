@@ -274,15 +274,6 @@ TestResult welch(const MeanEstimate& a, const MeanEstimate& b, double tolerance)
     return {std::copysign(t, difference), std::min(1.0, 2.0 * student_tail(welch_degrees(a, b), t))};
 }
 
-bool may_lack_rare_events(const Moments& candidate, const Moments& reference, double largest,
-                          double level)
-{
-    const double missing = reference.mean - candidate.mean;
-    if (!(missing > 0.0) || !(candidate.variance < 0.01 * reference.variance)) return false;
-    const double q = -std::expm1(std::log(level) / candidate.count);
-    return missing / q <= 4.0 * (largest - reference.mean);
-}
-
 Interval ratio_interval(const MeanEstimate& a, const MeanEstimate& b, double confidence)
 {
     // All r for which a - r b is not significantly different from 0: a quadratic in r.
