@@ -24,7 +24,8 @@ protected:
     static void SetUpTestSuite()
     {
         suite = new images_test::TemporaryFolder;
-        for (const char* name : {"directional_over_plane", "integrating_sphere", "integrating_sphere_lamp"})
+        for (const char* name :
+             {"directional_over_plane", "integrating_sphere", "integrating_sphere_lamp"})
             add_scene(name);
     }
     static void TearDownTestSuite()
@@ -80,10 +81,24 @@ protected:
     /// an earlier check are taken.
     check::RendererCheck check_with(const std::string& longest)
     {
-        options.command = {PLUMBLINE_PROGRAM, "render",    "{scene}", "--size", "{width}x{height}",
-                           "-s",              "{samples}", "--seed",  "{seed}", "--max-edges",
-                           longest,           "-o",        "{out}",   "-q",     "--device",
-                           "host",            "-t",        "1"};
+        options.command = {PLUMBLINE_PROGRAM,
+                           "render",
+                           "{scene}",
+                           "--size",
+                           "{width}x{height}",
+                           "-s",
+                           "{samples}",
+                           "--seed",
+                           "{seed}",
+                           "--max-edges",
+                           longest,
+                           "-o",
+                           "{out}",
+                           "-q",
+                           "--device",
+                           "host",
+                           "-t",
+                           "1"};
         options.mistakes_progress = [&](const check::SceneCheck& scene, double done, double total) {
             searched.insert(scene.scene().name);
             EXPECT_LE(done, total);
@@ -110,10 +125,10 @@ TEST_F(CommonMistake, OfAllFailingScenesIsNamed)
     options.mistakes = true;
     const check::RendererCheck check = check_with("2");
     const std::string mistake = "one of direct light alone (paths of up to 2 edges)";
-    EXPECT_EQ(in_common(check),
-              (std::vector<std::string>{
-                  "One mistake explains both scenes with a wrong picture: your picture is " + mistake +
-                  "."}))
+    EXPECT_EQ(
+        in_common(check),
+        (std::vector<std::string>{
+            "One mistake explains both scenes with a wrong picture: your picture is " + mistake + "."}))
         << results_table(check);
     for (const check::SceneCheck& scene : check.scenes)
         EXPECT_EQ(scene.diagnosis().find("Your picture is " + mistake) == 0,
