@@ -39,7 +39,7 @@ def on_files(files, config):
     for page in files.documentation_pages():
         listed.update(sources.referenced(ROOT, page.src_uri, page.content_string))
     for path in sorted(listed):
-        text = f"---\nsearch:\n  exclude: true\n---\n# {path}\n"
+        text = f"---\nsearch:\n  exclude: true\nhide: [toc]\n---\n# {path}\n"
         files.append(File.generated(config, sources.page_of(path), content=text))
     for file in [*KATEX.glob("katex.min.*"), *KATEX.glob("fonts/*")]:
         name = f"katex/{file.relative_to(KATEX).as_posix()}"
