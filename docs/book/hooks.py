@@ -59,6 +59,8 @@ def on_nav(nav, config, files):
 
 def on_page_markdown(markdown, page, config, files):
     """Leads links to sources to their pages."""
+    if page.file.src_uri == "map.md":
+        page.meta["hide"] = ["toc"]  # its tables need the width
     return sources.with_links_to_pages(ROOT, page.file.src_uri, markdown)
 
 
