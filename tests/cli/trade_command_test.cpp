@@ -223,6 +223,12 @@ TEST(TradeCommand, WritesResultsAndAPageAndPrintsATable)
     EXPECT_TRUE(written.at("complete"));
     EXPECT_NE(read_bytes(html).find("threads=2"), std::string::npos);
     EXPECT_NE(written.at("command").get<std::string>().find("--rounds 2"), std::string::npos);
+
+    const std::string again = (folder / "again.html").string();
+    const Outcome shown = run({"trade", "--from", json, "--report", again});
+    EXPECT_EQ(shown.status, 0) << shown.err;
+    EXPECT_EQ(shown.out, outcome.out);
+    EXPECT_EQ(read_bytes(again), read_bytes(html));
 }
 
 TEST(TradeCommand, RendersItsTruthOnceAndKeepsIt)
@@ -357,7 +363,10 @@ TEST(TradeCommand, RefusesTruthsAndResultsOfSomethingElse)
         write_bytes(json, text);
         refused(trade("furnace", {"-o", json, "--resume"}), json.c_str());
         EXPECT_EQ(read_bytes(json), text);
+        refused({"trade", "--from", json}, ("--from " + json).c_str());
     }
+    refused({"trade"}, "scene is required");
+    refused({"trade", scene_file("furnace"), "--from", json}, "--from");
 }
 
 } // namespace
