@@ -52,6 +52,21 @@ RC_GTEST_PROP(Bsdf, LambertianIsReciprocalAndItsDensitiesAgreeWithTheSample, ())
     for (int i = 0; i < 3; ++i) RC_ASSERT(std::abs(value[i] - s.value[i]) <= 4 * epsilon * s.value[i]);
 }
 
+// docs/derivations.md, section 1: what leaves again of the light from the whole hemisphere is the
+// albedo. In the cosine the integrand is linear, for which the midpoint rule is exact.
+TEST(Bsdf, LambertianReflectsItsAlbedo)
+{
+    const scenes::Material material = scenes::Lambertian{Rgb(0.2, 0.5, 0.9)};
+    constexpr int steps = 100;
+    Rgb reflected(0.0);
+    for (int i = 0; i < steps; ++i) {
+        const double z = (i + 0.5) / steps;
+        const Vec3 wi(std::sqrt(1.0 - z * z), 0.0, z);
+        reflected += evaluate_bsdf(material, Vec3(0.6, 0.0, 0.8), wi) * z * (2.0 * ref::pi / steps);
+    }
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(reflected[i], Rgb(0.2, 0.5, 0.9)[i], steps * epsilon) << i;
+}
+
 // Opaque: no light may pass to the other side.
 RC_GTEST_PROP(Bsdf, LambertianDoesNotTransmit, ())
 {
@@ -111,6 +126,56 @@ RC_GTEST_PROP(Fresnel, IsTheSameFromBothSides, ())
     const double from_inside = refracted(cos_t, n, 1.0, back);
     RC_ASSERT(std::abs(from_outside - from_inside) < 1e-9);
     RC_ASSERT(std::abs(back - cos_i) < 1e-9);
+}
+
+// docs/derivations.md, section 8. The fields in the other medium, from the continuity of the fields
+// along the boundary: t = 1 + r for the electric field perpendicular to the plane of incidence, eta_t t
+// = eta_i (1 + r) for the one in it, where r = (1 - s) / (1 + s) and s is the quotient of the other two
+// parts. The power that crosses a piece of the boundary is eta |E|^2 cos. Tolerance: s is at least 0.05
+// and at most 20 here, so no digits are lost but those of cos_t, as above: epsilon / cos_t^2.
+RC_GTEST_PROP(Fresnel, LeavesToTheOtherSideWhatTheFieldsCarry, ())
+{
+    const double eta_i = 1.0 + *any_unit();
+    const double eta_t = 1.0 + *any_unit();
+    const double cos_i = *any_unit();
+    double cos_t = 0.0;
+    const double reflected = refracted(cos_i, eta_i, eta_t, cos_t);
+    RC_PRE(cos_i > 0.1 && cos_t > 0.1);
+    double passed = 0.0;
+    for (const double s : {eta_t * cos_t / (eta_i * cos_i), eta_i * cos_t / (eta_t * cos_i)}) {
+        const bool perpendicular = passed == 0.0;
+        const double r = (1.0 - s) / (1.0 + s);
+        const double field = perpendicular ? 1.0 + r : eta_i / eta_t * (1.0 + r);
+        passed += field * field * eta_t * cos_t / (eta_i * cos_i) / 2.0;
+    }
+    RC_ASSERT(std::abs(1.0 - reflected - passed) < 1e-12);
+}
+
+// docs/derivations.md, section 7. Directions of refraction for a small parallelogram of directions
+// around wo: solid angles are lengths of cross products, and eta^2 cos times them is the same on both
+// sides. Central differences of width 2 h have a relative error of h^2 times the third derivative (at
+// most some 1 / cos^4 with cosines above 0.3: 1e-10 * 123), and rounding gives epsilon / h = 2e-11 times
+// the same.
+RC_GTEST_PROP(Glass, RefractionKeepsEtaSquaredCosineTimesSolidAngle, ())
+{
+    const double ior = 1.2 + *any_unit();
+    const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), ior};
+    const Vec3 wo = *any_direction();
+    const auto refract = [&](const Vec3& w) {
+        return sample_bsdf(glass, glm::normalize(w), {0.5, 0.5, 1.0 - 0x1p-33, 0.5}, Transport::power)
+            .wi_local;
+    };
+    const Vec3 wi = refract(wo);
+    RC_PRE(wo.z * wi.z < 0.0 && std::abs(wo.z) > 0.3 && std::abs(wi.z) > 0.3);
+    constexpr double h = 1e-5;
+    const ref::Frame frame(wo);
+    const Vec3 du = (refract(wo + h * frame.x) - refract(wo - h * frame.x)) / (2.0 * h);
+    const Vec3 dv = (refract(wo + h * frame.y) - refract(wo - h * frame.y)) / (2.0 * h);
+    const double solid_angle = glm::length(glm::cross(du, dv)); // of one steradian on the side of wo
+    const double eta_o = wo.z > 0.0 ? 1.0 : ior;
+    const double eta_i = wo.z > 0.0 ? ior : 1.0;
+    const double kept = eta_i * eta_i * std::abs(wi.z) * solid_angle / (eta_o * eta_o * std::abs(wo.z));
+    RC_ASSERT(std::abs(kept - 1.0) < 1e-7);
 }
 
 // Snell's law, written independently of the code: eta_i sin_i = eta_t sin_t, in one plane, to the
