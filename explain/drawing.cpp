@@ -132,8 +132,19 @@ private:
     {
         constexpr double width = 18.0; // of a name, and its height
         constexpr double height = 16.0;
-        constexpr std::array<glm::dvec2, 6> places = {
-            {{6.0, -6.0}, {6.0, 16.0}, {-22.0, -6.0}, {-22.0, 16.0}, {14.0, 5.0}, {-30.0, 5.0}}};
+        // Beside the vertex, and a line further up or down.
+        constexpr std::array<glm::dvec2, 12> places = {{{6.0, -6.0},
+                                                        {6.0, 16.0},
+                                                        {-22.0, -6.0},
+                                                        {-22.0, 16.0},
+                                                        {14.0, 5.0},
+                                                        {-30.0, 5.0},
+                                                        {6.0, -23.0},
+                                                        {6.0, 33.0},
+                                                        {-22.0, -23.0},
+                                                        {-22.0, 33.0},
+                                                        {25.0, -6.0},
+                                                        {25.0, 16.0}}};
         glm::dvec2 chosen = at + places[0];
         for (const glm::dvec2& place : places) {
             const glm::dvec2 name = at + place;

@@ -1,29 +1,33 @@
 """Compares the code that docs/derivations.md quotes with the files, and finds the tests that it names.
 
 A quotation is a block of C++ whose first line is a comment with the file. Its other lines are lines of that file, in this
-order; indentation does not count. quotations.py prints what is wrong, and exits with 1 if anything is.
+order; indentation and comments do not count. quotations.py prints what is wrong, and exits with 1 if anything is.
 """
 
 import re
 import sys
 
-from source_text import ROOT
+from source_text import ROOT, without_comments
 
 PAGE = "docs/derivations.md"
 FEWEST_QUOTATIONS = 12  # fewer means that the page was not understood
 
 
+def code_lines(text):
+    return [line.strip() for line in without_comments(text).splitlines() if line.strip()]
+
+
 def quotations(page):
     """Pairs of file and lines."""
     return [
-        (file, [line.strip() for line in lines.splitlines() if line.strip()])
+        (file, code_lines(lines))
         for file, lines in re.findall(r"```cpp\n// (\S+)\n(.*?)```", page, re.DOTALL)
     ]
 
 
 def lost_line(file, lines):
     """The first line that does not follow the one before it in the file; None if all do."""
-    rest = iter(line.strip() for line in (ROOT / file).read_text().splitlines())
+    rest = iter(code_lines((ROOT / file).read_text()))
     return next((line for line in lines if line not in rest), None)
 
 

@@ -87,8 +87,7 @@ TEST(ExplainDrawing, ShowsBlockedAndFreeLinesDifferently)
     EXPECT_EQ(page_text::count(picture, "inf"), 0u);
 }
 
-// Names are about 18 wide and 16 high. A path of at most 3 edges has at most 7 vertices, and a name 6
-// places.
+// Names are about 18 wide and 16 high. The two walks of paths of at most 3 edges have 7 vertices.
 TEST(ExplainDrawing, NamesOfVerticesDoNotCoverEachOther)
 {
     const Explained explained("cornell_diffuse");
