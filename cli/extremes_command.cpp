@@ -18,6 +18,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -136,18 +137,23 @@ ExitStatus judge_walk(const std::vector<WalkedAxis>& walked)
     return wrong.empty() ? fine : check_failed;
 }
 
-/// Shows earlier results, of those of the chosen axes that they have.
+/// Shows earlier results, of those of the chosen axes that they have. Origin and number of cases are
+/// those of the first file, and must be the same in the others.
 ExitStatus show_earlier_walk(const ExtremesCommand& options, std::vector<WalkedAxis> walked)
 {
-    show_from(options.from, [&](const extremes::Json& json) {
-        const extremes::Description description = extremes::description_of(json);
-        extremes::restore(json, description, walked, true);
-        for (WalkedAxis& axis : walked)
-            std::erase_if(axis.methods, [](const WalkedAxis::Of& of) { return of.points.empty(); });
-        std::erase_if(walked, [](const WalkedAxis& axis) { return axis.methods.empty(); });
-        if (walked.empty()) throw std::invalid_argument("it has no point of these axes and methods");
-        show_walk(extremes::results(description, walked), options);
-    });
+    std::optional<extremes::Description> description;
+    for (const std::string& file : options.from)
+        show_from(file, [&](const extremes::Json& json) {
+            if (!description) description = extremes::description_of(json);
+            extremes::restore(json, *description, walked, true);
+        });
+    for (WalkedAxis& axis : walked)
+        std::erase_if(axis.methods, [](const WalkedAxis::Of& of) { return of.points.empty(); });
+    std::erase_if(walked, [](const WalkedAxis& axis) { return axis.methods.empty(); });
+    if (walked.empty())
+        throw std::invalid_argument("--from " + options.from.front() +
+                                    ": it has no point of these axes and methods");
+    show_walk(extremes::results(*description, walked), options);
     return judge_walk(walked);
 }
 

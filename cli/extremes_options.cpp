@@ -28,7 +28,7 @@ void add_extremes_options(CLI::App& command, ExtremesCommand& options)
     command.add_option("-o,--output", options.output, "Results: .json");
     command.add_option("--report", options.report, "Page for people, without other files: .html");
     command.add_flag("--resume", options.resume, "Go on with the points in the output");
-    command.add_option("--from", options.from, "Walk nothing: show the results in this .json of -o")
+    command.add_option("--from", options.from, "Walk nothing: show the results in these .json of -o")
         ->excludes("--resume")
         ->excludes("--output")
         ->excludes("--cases")
@@ -45,8 +45,10 @@ void check(const ExtremesCommand& options)
     expect_ending(options.report, "--report", ".html");
     if (options.resume && options.output.empty())
         throw std::invalid_argument("--resume needs -o: it goes on with the results in that file");
-    expect_different_files({{"-o", options.output}, {"--report", options.report}},
-                           {{"--from", options.from}});
+    for (const std::string& from : options.from)
+        expect_different_files({{"-o", options.output}, {"--report", options.report}},
+                               {{"--from", from}});
+    expect_different_files({{"-o", options.output}, {"--report", options.report}});
     for (const std::string& path : {options.output, options.report})
         if (!path.empty()) images::check_place(path);
 }

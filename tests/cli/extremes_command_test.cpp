@@ -87,6 +87,12 @@ TEST(ExtremesCommand, ShowsEarlierResultsWithoutAWalk)
     EXPECT_NE(shown.out.find("(`albedo`)"), std::string::npos);
     EXPECT_EQ(read_bytes(second), read_bytes(first));
 
+    const std::string ior = (folder / "ior.json").string();
+    ASSERT_EQ(run({"extremes", "ior", "--methods", "ref", "--cases", "3", "-q", "-o", ior}).status, 0);
+    const Outcome both = run({"extremes", "--from", ior, json, "--markdown"});
+    for (const char* name : {"(`albedo`)", "(`ior`)"})
+        EXPECT_NE(both.out.find(name), std::string::npos) << both.out;
+
     const Outcome other = run({"extremes", "ior", "--from", json});
     EXPECT_EQ(other.status, 2);
     EXPECT_NE(other.err.find("it has no point of these axes"), std::string::npos) << other.err;
