@@ -134,6 +134,7 @@ Codes any_codes(std::size_t n, int bits, Random& random)
     return codes;
 }
 
+// map: delta, range-direction, range-length, split, children
 RC_GTEST_PROP(RadixTree, IsTheRecursiveOneAndValidAndShallow, ())
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
