@@ -62,7 +62,7 @@ double least_split_cost(std::span<const Aabb> boxes, std::vector<std::uint32_t> 
     return least;
 }
 
-RC_GTEST_PROP(BuildSah, SplitsEveryNodeAtTheLeastCost, ())
+RC_GTEST_PROP(BuildSah, SplitsEveryNodeAtTheLeastCost, ()) // map: sah-split
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const std::size_t n = *rc::gen::inRange<std::size_t>(2, 40);
@@ -95,7 +95,7 @@ RC_GTEST_PROP(BuildSah, MakesALeafExactlyWhereThatIsNoDearer, ())
     }
 }
 
-TEST(Quality, OfAHandMadeTreeIsWhatOneCounts)
+TEST(Quality, OfAHandMadeTreeIsWhatOneCounts) // map: sah-cost
 {
     // Two unit cubes side by side in a box of half area 2 + 1 + 2 = 5.
     const std::vector<Aabb> boxes = {{Vec3(0), Vec3(1)}, {Vec3(1, 0, 0), Vec3(2, 1, 1)}};
