@@ -28,7 +28,9 @@ class Sources(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
         (self.root / "ref").mkdir()
+        (self.root / "docs/figures").mkdir(parents=True)
         (self.root / "ref/a.h").write_text(SOURCE)
+        (self.root / "docs/figures/c.toml").write_text("[c]\n")
 
     def test_have_names_where_they_are_declared(self):
         self.assertEqual(sources.line_of(SOURCE, "refit"), 6)  # no comment, no call
@@ -42,6 +44,7 @@ class Sources(unittest.TestCase):
         self.assertEqual(at(self.root, "results/x.md", "[a](../../ref/a.h)"), "[a](../source/ref/a.h.md)")
         self.assertEqual(at(self.root, "trees.md", "[a](../ref)"), "[a](source/ref.md)")
         self.assertEqual(at(self.root, "results/x.md", "[t](../trees.md)"), "[t](../trees.md)")
+        self.assertEqual(at(self.root, "trees.md", "[c](figures/c.toml)"), "[c](source/docs/figures/c.toml.md)")
         self.assertEqual(at(self.root, "trees.md", "[b](../ref/b.h)"), "[b](../ref/b.h)")  # for MkDocs to report
 
     def test_are_found_in_links_and_in_code_font(self):
