@@ -21,6 +21,7 @@ import sources  # noqa: E402
 
 KATEX = Path(os.environ.get("PLUMBLINE_KATEX", "/usr/share/javascript/katex"))
 LEXERS = {"py": "python", "sh": "bash", "cmake": "cmake", "dae": "xml", "md": "markdown", "toml": "toml"}
+WIDE = {"map.md", "one-sample.md"}  # pages whose tables or code need the width of the table of contents
 
 listed: set[str] = set()  # the sources and folders that have a page
 
@@ -52,8 +53,8 @@ def on_files(files, config):
 
 def on_page_markdown(markdown, page, config, files):
     """Leads links to sources to their pages."""
-    if page.file.src_uri == "map.md":
-        page.meta["hide"] = ["toc"]  # its tables need the width
+    if page.file.src_uri in WIDE:
+        page.meta["hide"] = ["toc"]
     return sources.with_links_to_pages(ROOT, page.file.src_uri, markdown)
 
 
