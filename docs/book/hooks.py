@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from mkdocs.exceptions import PluginError
-from mkdocs.structure.files import File
+from mkdocs.structure.files import File, InclusionLevel
 from pygments import highlight
 from pygments.formatters import HtmlFormatter
 from pygments.lexers import TextLexer, get_lexer_by_name
@@ -21,6 +21,7 @@ import sources  # noqa: E402
 
 KATEX = Path(os.environ.get("PLUMBLINE_KATEX", "/usr/share/javascript/katex"))
 LEXERS = {"py": "python", "sh": "bash", "cmake": "cmake", "dae": "xml", "md": "markdown", "toml": "toml"}
+WIDE = {"map.md", "one-sample.md"}  # pages whose tables or code need the width of the table of contents
 
 listed: set[str] = set()  # the sources and folders that have a page
 
@@ -40,7 +41,8 @@ def on_files(files, config):
         listed.update(sources.referenced(ROOT, page.src_uri, page.content_string))
     for path in sorted(listed):
         text = f"---\nsearch:\n  exclude: true\nhide: [toc]\n---\n# {path}\n"
-        files.append(File.generated(config, sources.page_of(path), content=text))
+        # Sources are reached by links only, so MkDocs must not report that the navigation lacks them.
+        files.append(File.generated(config, sources.page_of(path), content=text, inclusion=InclusionLevel.NOT_IN_NAV))
     for file in [*KATEX.glob("katex.min.*"), *KATEX.glob("fonts/*")]:
         name = f"katex/{file.relative_to(KATEX).as_posix()}"
         files.append(File.generated(config, name, abs_src_path=str(file.resolve())))
@@ -49,18 +51,10 @@ def on_files(files, config):
     return files
 
 
-def on_nav(nav, config, files):
-    """Sources are reached by links only, so MkDocs must not report that the navigation lacks them."""
-    for file in files:
-        if file.src_uri.startswith("source/"):
-            file.inclusion = file.inclusion.NOT_IN_NAV
-    return nav
-
-
 def on_page_markdown(markdown, page, config, files):
     """Leads links to sources to their pages."""
-    if page.file.src_uri == "map.md":
-        page.meta["hide"] = ["toc"]  # its tables need the width
+    if page.file.src_uri in WIDE:
+        page.meta["hide"] = ["toc"]
     return sources.with_links_to_pages(ROOT, page.file.src_uri, markdown)
 
 

@@ -17,8 +17,8 @@ export NO_MKDOCS_2_WARNING=true PYTHONDONTWRITEBYTECODE=1
 case "${1:-}" in
     --serve) exec "$venv/bin/mkdocs" serve ;;
     --check)
-        "$venv/bin/mkdocs" build --quiet --strict
+        "$venv/bin/mkdocs" build --strict
         "$venv/bin/python" docs/book/check.py out/book ;;
-    *) "$venv/bin/mkdocs" build --quiet ;;
+    *) "$venv/bin/mkdocs" build ;;
 esac
 echo "The book: $PWD/out/book/index.html"

@@ -9,7 +9,7 @@ import posixpath
 import re
 from pathlib import Path
 
-LINK = re.compile(r"\]\((\.\./[^)\s#]+)(#[^)\s]*)?\)")
+LINK = re.compile(r"\]\(([^)\s#:]+)(#[^)\s]*)?\)")
 PATH = r"[A-Za-z0-9_.-]+(?:/[A-Za-z0-9_.-]+)*\.(?:h|cpp|cu|cuh|py|sh|cmake|dae|toml)"
 CODE_PATH = re.compile(rf"`({PATH})`")
 LARGEST = 200_000  # bytes; some scene files are megabytes of numbers
@@ -19,7 +19,7 @@ def target_of(link: str, page: str) -> str | None:
     """The path from the root of the repository to what `link` names on `page` (a path in docs/), or None if that is a
     page or picture of docs/."""
     path = posixpath.normpath(posixpath.join("docs", posixpath.dirname(page), link))
-    return None if path.startswith("docs/") and not path.startswith(("docs/figures/", "docs/scenes/")) else path
+    return None if path.startswith("docs/") and path.endswith((".md", ".png", ".svg")) else path
 
 
 def is_listed(root: Path, path: str) -> bool:

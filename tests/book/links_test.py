@@ -82,6 +82,12 @@ class Navigation(unittest.TestCase):
         self.assertEqual(sorted(named), expected)
         self.assertEqual(named[0], "index.md")
 
+    def test_has_pages_that_no_part_names_at_the_end(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("new.md", "trees.md"):
+                (Path(folder) / name).write_text("# x")
+            self.assertEqual(chapters.navigation(Path(folder)), [{"Trees": ["trees.md"]}, {"More": ["new.md"]}])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -28,7 +28,10 @@ class Sources(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
         (self.root / "ref").mkdir()
+        (self.root / "docs/figures").mkdir(parents=True)
         (self.root / "ref/a.h").write_text(SOURCE)
+        (self.root / "ref/README.md").write_text("# ref\n")
+        (self.root / "docs/figures/c.toml").write_text("[c]\n")
 
     def test_have_names_where_they_are_declared(self):
         self.assertEqual(sources.line_of(SOURCE, "refit"), 6)  # no comment, no call
@@ -41,12 +44,14 @@ class Sources(unittest.TestCase):
         self.assertEqual(at(self.root, "trees.md", "[a](../ref/a.h#L6)"), "[a](source/ref/a.h.md#L6)")
         self.assertEqual(at(self.root, "results/x.md", "[a](../../ref/a.h)"), "[a](../source/ref/a.h.md)")
         self.assertEqual(at(self.root, "trees.md", "[a](../ref)"), "[a](source/ref.md)")
+        self.assertEqual(at(self.root, "trees.md", "[r](../ref/README.md)"), "[r](source/ref/README.md.md)")
         self.assertEqual(at(self.root, "results/x.md", "[t](../trees.md)"), "[t](../trees.md)")
+        self.assertEqual(at(self.root, "trees.md", "[c](figures/c.toml)"), "[c](source/docs/figures/c.toml.md)")
         self.assertEqual(at(self.root, "trees.md", "[b](../ref/b.h)"), "[b](../ref/b.h)")  # for MkDocs to report
 
     def test_are_found_in_links_and_in_code_font(self):
         found = sources.referenced(self.root, "trees.md", "[a](../ref) and `ref/b.h`")
-        self.assertEqual(found, {"ref", "ref/a.h"})
+        self.assertEqual(found, {"ref", "ref/a.h", "ref/README.md"})
         self.assertEqual(sources.referenced(self.root, "trees.md", "`ref/a.h`: `refit`"), {"ref/a.h"})
         self.assertEqual(sources.referenced(self.root, "trees.md", "[out](../../other)"), set())
 
@@ -74,13 +79,20 @@ class Check(unittest.TestCase):
                                      "p { background: url(data:image/png;base64,AA) }"), [])
 
     def test_finds_broken_links_and_what_is_loaded(self):
-        for page in ('<a href="no.html">x</a>', '<a href="other.html#nowhere">x</a>', '<a href="#nowhere">x</a>',
-                     '<script src="https://example.org/a.js"></script>', '<img src="//example.org/a.png">',
-                     '<link rel="preconnect" href="https://example.org">', '<img src="no.png">',
-                     '<style>@import "https://example.org/a.css";</style>', '<p style="background: url(http://example.org)">'):
-            self.assertEqual(len(self.faults(page)), 1, page)
-        self.assertEqual(len(self.faults("", "@font-face { src: url(https://example.org/a.woff) }")), 1)
-        self.assertEqual(len(self.faults("", "@font-face { src: url('fonts/a.woff') }")), 1)
+        for page, fault in {
+                '<a href="no.html">x</a>': "no file", '<a href="other.html#nowhere">x</a>': "no anchor",
+                '<a href="#nowhere">x</a>': "no anchor", '<img src="no.png">': "does not exist",
+                '<script src="https://example.org/a.js"></script>': "network", '<img src="//example.org/a.png">': "network",
+                '<link rel="preconnect" href="https://example.org">': "network",
+                '<style>@import "https://example.org/a.css";</style>': "network",
+                '<p style="background: url(http://example.org)">': "network"}.items():
+            self.expect_one(fault, self.faults(page))
+        self.expect_one("network", self.faults("", "@font-face { src: url(https://example.org/a.woff) }"))
+        self.expect_one("does not exist", self.faults("", "@font-face { src: url('fonts/a.woff') }"))
+
+    def expect_one(self, fault: str, found: list[str]):
+        self.assertEqual([fault in one for one in found], [True], (fault, found))
+
 
 
 if __name__ == "__main__":
