@@ -130,8 +130,9 @@ TEST(TradeCommand, FindsThatUniformWeightsAreBiasedWhereThereIsGlassOnly)
 }
 
 // A family that is left out takes its weighted layer with it: the picture is biased exactly where the
-// layer is not black. Over a plane a point light is not hit, and nothing joins two points of the plane. In
-// the sphere with a lamp each family carries much light: a family with little takes many seconds to miss.
+// layer is not black. Over a plane a point light is not hit, and nothing joins two points of the plane.
+// In the sphere with a lamp each family carries much light: a family with little takes many seconds to
+// miss.
 TEST(TradeCommand, FindsWhichFamiliesCarryLight)
 {
     TemporaryFolder folder;
