@@ -168,6 +168,11 @@ class TwoClicksTest(SmallTree):
         self.assertEqual(self.fault(), "")
         self.assertEqual(self.fault(name="Split", formula="A N"), "")
 
+    def test_a_chapter_that_has_it_without_links_is_no_fault(self):
+        self.change("docs/bsdf.md", "## 2.", "Fresnel's equations: F = \\frac{1}{2}\n\n## 2.")
+        self.change("README.md", "[The map]", "[Surfaces](docs/bsdf.md) [The map]")
+        self.assertEqual(self.fault(), "")
+
     def test_a_first_page_without_the_link_is_found(self):
         self.change("README.md", "docs/map.md", "docs/bsdf.md")
         self.assertIn("no page", self.fault())

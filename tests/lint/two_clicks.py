@@ -43,12 +43,16 @@ def links(page: pathlib.Path, text: str) -> list[tuple[pathlib.Path, str]]:
 
 
 def fault(pages: list[pathlib.Path], name: str, formula: str) -> str:
-    """What keeps a reader from the formula, or nothing."""
-    for page in pages:
-        for line in page.read_text(encoding="utf-8").split("\n"):
-            if name in line and formula in line:
-                return fault_of_line(page, line)
-    return "no page that the first page links to has it on one line with " + formula
+    """What keeps a reader from the formula, or nothing. A chapter may have it as well, without links to code."""
+    found = [
+        fault_of_line(page, line)
+        for page in pages
+        for line in page.read_text(encoding="utf-8").split("\n")
+        if name in line and formula in line
+    ]
+    if not found:
+        return "no page that the first page links to has it on one line with " + formula
+    return "" if "" in found else found[-1]
 
 
 def fault_of_line(page: pathlib.Path, line: str) -> str:
