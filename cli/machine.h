@@ -1,6 +1,8 @@
 #pragma once
 
-// Where and when results were made, for their head.
+// Where, when and how results were made, for their head.
+
+#include "cli/processor.h"
 
 #include <string>
 
@@ -9,12 +11,6 @@ class App;
 }
 
 namespace cli {
-
-/// "2026-11-27", in local time.
-std::string today();
-
-/// The name of the processor, or "unknown processor".
-std::string processor_name();
 
 /// The command line of `command`, a subcommand that was parsed: its name and the options that were
 /// given.

@@ -4,6 +4,7 @@
 #include "ref/trees/radix_tree.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -20,45 +21,17 @@ bool probe(ref::Codes codes, std::int64_t i, std::int64_t step, std::int64_t key
     return found > bound;
 }
 
-/// For each internal node, the leaves from which the first and the second walk of the refit arrive, and
-/// the children that they come through.
-struct Arrivals {
-    std::vector<std::vector<std::int64_t>> leaves;
-    std::vector<std::vector<std::uint32_t>> children;
-
-    explicit Arrivals(const ref::Tree& tree)
-        : leaves(tree.internal_count()), children(tree.internal_count())
-    {
-        for (std::uint32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-            std::uint32_t node = tree.internal_count() + leaf;
-            for (;;) {
-                const std::uint32_t child = node;
-                node = tree.nodes[node].parent;
-                if (node == ref::no_node) break;
-                leaves[node].push_back(leaf);
-                children[node].push_back(child);
-                if (leaves[node].size() == 1) break; // the other child has no box yet
-            }
-        }
-    }
-};
-
 std::vector<Ancestor> way_to_root(const ref::Tree& tree, ref::Codes codes, std::uint32_t leaf)
 {
-    const Arrivals arrivals(tree);
+    std::vector<std::uint32_t> from_left_to_right(tree.leaf_count());
+    std::iota(from_left_to_right.begin(), from_left_to_right.end(), 0U);
+    const std::vector<Arrivals> arrivals = refit_arrivals(tree, from_left_to_right);
     std::vector<Ancestor> way;
     for (std::uint32_t node = tree.nodes[leaf].parent; node != ref::no_node;
          node = tree.nodes[node].parent) {
         const auto [first, last, gamma] = ref::radix_node(codes, node);
-        const auto& leaves = arrivals.leaves[node];
-        const auto& children = arrivals.children[node];
-        way.push_back({node,
-                       first,
-                       last,
-                       gamma,
-                       {leaves[0], leaves[1]},
-                       {children[0], children[1]},
-                       tree.bounds[node]});
+        const auto& [leaves, children] = arrivals[node];
+        way.push_back({node, first, last, gamma, leaves, children, tree.bounds[node]});
     }
     return way;
 }
@@ -89,6 +62,24 @@ NodeSearch search_of_node(std::span<const std::uint64_t> codes, std::int64_t i)
     } while (t > 1);
     search.gamma = i + search.s * d + std::min(d, 0);
     return search;
+}
+
+std::vector<Arrivals> refit_arrivals(const ref::Tree& tree, std::span<const std::uint32_t> leaf_order)
+{
+    std::vector<Arrivals> arrivals(tree.internal_count());
+    std::vector<std::size_t> count(tree.internal_count(), 0);
+    for (const std::uint32_t leaf : leaf_order) {
+        std::uint32_t node = tree.internal_count() + leaf;
+        for (;;) {
+            const std::uint32_t child = node;
+            node = tree.nodes[node].parent;
+            if (node == ref::no_node) break;
+            arrivals[node].leaves[count[node]] = leaf;
+            arrivals[node].children[count[node]] = child;
+            if (count[node]++ == 0) break; // the other child has no box yet
+        }
+    }
+    return arrivals;
 }
 
 TreeExplanation explain_tree(std::span<const ref::Aabb> boxes, int bits_per_axis,

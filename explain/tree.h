@@ -54,6 +54,13 @@ struct Ancestor {
     ref::Aabb bounds;
 };
 
+/// The two walks of a refit that arrive at an internal node: the leaves that they come from, and the
+/// children that they come through.
+struct Arrivals {
+    std::array<std::int64_t, 2> leaves;
+    std::array<std::uint32_t, 2> children;
+};
+
 struct TreeExplanation {
     std::uint32_t primitive;
     int bits_per_axis;
@@ -72,6 +79,10 @@ struct TreeExplanation {
 
 /// The searches of internal node i of the tree over sorted codes, 0 <= i < codes.size() - 1.
 NodeSearch search_of_node(std::span<const std::uint64_t> codes, std::int64_t i);
+
+/// The arrivals at each internal node if the refit starts its walks in `leaf_order`, a permutation of
+/// the leaves, as ref::refit does.
+std::vector<Arrivals> refit_arrivals(const ref::Tree& tree, std::span<const std::uint32_t> leaf_order);
 
 /// The primitive number `primitive` in the radix tree over the boxes, with codes of 10 or 21 bits per
 /// axis. The refit starts its walks at the leaves from left to right, as ref::refit does. Throws

@@ -45,6 +45,11 @@ void Program::add_file(const std::string& name, std::string& file, const std::st
     app_->add_option(name, file, description)->required();
 }
 
+void Program::add_flag(const std::string& name, bool& flag, const std::string& description)
+{
+    app_->add_flag(name, flag, description);
+}
+
 void Program::set_footer(const std::string& footer)
 {
     app_->footer(footer);

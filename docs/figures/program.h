@@ -42,6 +42,7 @@ public:
     void add(RoundOptions& options);
     /// A file that must be named.
     void add_file(const std::string& name, std::string& file, const std::string& description);
+    void add_flag(const std::string& name, bool& flag, const std::string& description);
     /// The last lines of --help.
     void set_footer(const std::string& footer);
     /// Reads the command line, then calls `work`. Returns the exit status.

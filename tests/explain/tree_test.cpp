@@ -10,6 +10,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
+#include <random>
 #include <stdexcept>
 
 namespace {
@@ -90,6 +93,36 @@ TEST(ExplainTree, RefusesAPrimitiveThatDoesNotExist)
 {
     const std::vector<ref::Aabb> boxes(3, ref::Aabb{ref::Vec3(0.0), ref::Vec3(1.0)});
     EXPECT_THROW((void)explain::explain_tree(boxes, 10, 3), std::invalid_argument);
+}
+
+// Whatever the order in which the walks start, the walk that starts last among the leaves of a node is
+// the second to arrive there, and of the other child's leaves it is again the last that arrives.
+RC_GTEST_PROP(ExplainTree, TheLastWalkOfEachChildArrives, ())
+{
+    const auto boxes = any_boxes(static_cast<std::size_t>(transport_test::any_number(1.0, 40.0)));
+    const ref::Tree tree = ref::build(boxes, ref::Builder::morton30);
+    std::vector<std::uint32_t> order(tree.leaf_count());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::shuffle(order, std::mt19937(*transport_test::any_word()));
+    std::vector<std::size_t> starts(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) starts[order[i]] = i;
+    const auto arrivals = explain::refit_arrivals(tree, order);
+
+    // The leaf whose walk starts last, of each node.
+    std::vector<std::uint32_t> last(tree.nodes.size());
+    const std::function<std::uint32_t(std::uint32_t)> find = [&](std::uint32_t node) {
+        if (tree.is_leaf(node)) return last[node] = tree.leaf(node);
+        const std::uint32_t a = find(tree.nodes[node].children[0]);
+        const std::uint32_t b = find(tree.nodes[node].children[1]);
+        return last[node] = starts[a] > starts[b] ? a : b;
+    };
+    find(0);
+    for (std::uint32_t node = 0; node < tree.internal_count(); ++node) {
+        RC_ASSERT(std::ranges::is_permutation(arrivals[node].children, tree.nodes[node].children));
+        RC_ASSERT(arrivals[node].leaves[1] == last[node]);
+        for (const std::size_t i : {0U, 1U})
+            RC_ASSERT(arrivals[node].leaves[i] == last[arrivals[node].children[i]]);
+    }
 }
 
 } // namespace

@@ -17,7 +17,7 @@ TEST(ExtremesDocumentation, HasTheLimitsOfTheProgram)
     const Json json = results({}, walked);
     const std::string text = images::read_file(std::string(PLUMBLINE_SOURCE_DIR) + "/docs/extremes.md");
     EXPECT_NE(text.find(limits_in_markdown(json)), std::string::npos)
-        << "the table of limits is not this one (./run figures writes it):\n"
+        << "the table of limits is not this one (./run figures extremes_all writes it):\n"
         << limits_in_markdown(json);
     for (const Json& axis : json.at("axes")) {
         const std::string name = axis.at("name");

@@ -22,7 +22,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(All, FigureProgram,
                          testing::Values("figure_epsilon", "figure_equal_time", "figure_fast_transport",
-                                         "figure_uniform_weights"),
+                                         "figure_tree_by_hand", "figure_uniform_weights"),
                          [](const auto& program) { return std::string(program.param); });
 
 TEST_P(FigureProgram, SaysHowItIsCalled)
@@ -90,6 +90,59 @@ TEST(EqualTime, NeedsAScene)
     EXPECT_EQ(outcome.status, 2);
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(outcome.err, "figure_equal_time: no scene is named\n");
+}
+
+// docs/tree-by-hand.md: its numbers and pictures are those of the code.
+class TreeByHand : public testing::Test {
+protected:
+    const std::filesystem::path docs_ = std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "docs";
+    TemporaryFolder folder_;
+
+    [[nodiscard]] Outcome check(const std::filesystem::path& page) const
+    {
+        const auto programs = std::filesystem::path(PLUMBLINE_PROGRAM).parent_path();
+        return run({(docs_ / "scenes/karras_keys.dae").string(), page.string(),
+                    (docs_ / "images").string(), "--check"},
+                   {.program = (programs / "figure_tree_by_hand").string()});
+    }
+    /// A copy of the page with the first `from` replaced.
+    [[nodiscard]] std::filesystem::path changed_page(const std::string& from,
+                                                     const std::string& to) const
+    {
+        std::string page = read_bytes(docs_ / "tree-by-hand.md");
+        const std::size_t at = page.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        write_bytes(folder_.path() / "page.md", page.replace(at, from.size(), to));
+        return folder_.path() / "page.md";
+    }
+};
+
+TEST_F(TreeByHand, IsUpToDate)
+{
+    const Outcome outcome = check(docs_ / "tree-by-hand.md");
+    EXPECT_EQ(outcome.status, 0) << outcome.err << outcome.out
+                                 << "run build/release/docs/figures/figure_tree_by_hand --help";
+    EXPECT_EQ(outcome.out, "");
+}
+
+TEST_F(TreeByHand, AWrongNumberIsFound)
+{
+    const auto page = changed_page("delta(0, 4) = 0", "delta(0, 4) = 1");
+    const Outcome outcome = check(page);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.out, page.string() + " is not what figure_tree_by_hand writes\n");
+}
+
+TEST_F(TreeByHand, NeedsItsMarks)
+{
+    const Outcome none = check(changed_page("figure_tree_by_hand: splits", "splits"));
+    EXPECT_EQ(none.status, 2);
+    EXPECT_NE(none.err.find("page.md: an end without a beginning"), std::string::npos) << none.err;
+    const Outcome twice =
+        check(changed_page("figure_tree_by_hand: splits", "figure_tree_by_hand: keys"));
+    EXPECT_EQ(twice.status, 2);
+    EXPECT_NE(twice.err.find("page.md: no part of the page, or one twice: keys"), std::string::npos)
+        << twice.err;
 }
 
 } // namespace

@@ -25,7 +25,7 @@ double refracted(double cos_i, double eta_i, double eta_t, double& cos_t)
     return ref::fresnel(cos_i, eta_i, eta_t, cos_t);
 }
 
-TEST(Bsdf, LambertianSamplesFollowTheirDensityOnBothSides)
+TEST(Bsdf, LambertianSamplesFollowTheirDensityOnBothSides) // map: bsdf-lambertian
 {
     const scenes::Material grey = scenes::Lambertian{Rgb(0.5)};
     for (const double side : {1.0, -1.0}) {
@@ -78,7 +78,7 @@ RC_GTEST_PROP(Bsdf, LambertianDoesNotTransmit, ())
     RC_ASSERT(pdf_solid_angle_bsdf(material, wo, wi) == 0.0);
 }
 
-RC_GTEST_PROP(Bsdf, MirrorReflectsAboutTheNormal, ())
+RC_GTEST_PROP(Bsdf, MirrorReflectsAboutTheNormal, ()) // map: bsdf-mirror
 {
     const Vec3 wo = *any_direction();
     const auto s = sample_bsdf(scenes::Material(scenes::Mirror{Rgb(0.7)}), wo, {}, Transport::radiance);
@@ -95,7 +95,7 @@ TEST(Fresnel, AtNormalIncidenceIsTheTextbookValue)
 
 // At Brewster's angle, tan(theta) = n, unpolarised reflectance is half of the perpendicular component,
 // ((1 - n^2) / (1 + n^2))^2 / 2, because the parallel component is 0.
-TEST(Fresnel, AtBrewstersAngleOnlyThePerpendicularPartIsLeft)
+TEST(Fresnel, AtBrewstersAngleOnlyThePerpendicularPartIsLeft) // map: fresnel
 {
     const double n = 1.45;
     double cos_t = 0.0;
@@ -180,7 +180,7 @@ RC_GTEST_PROP(Glass, RefractionKeepsEtaSquaredCosineTimesSolidAngle, ())
 
 // Snell's law, written independently of the code: eta_i sin_i = eta_t sin_t, in one plane, to the
 // other side.
-RC_GTEST_PROP(Glass, RefractsBySnellsLaw, ())
+RC_GTEST_PROP(Glass, RefractsBySnellsLaw, ()) // map: refraction
 {
     const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), 1.45};
     const Vec3 wo = *any_direction();
@@ -194,7 +194,7 @@ RC_GTEST_PROP(Glass, RefractsBySnellsLaw, ())
 
 // The value of a delta lobe is its colour, times (eta_i / eta_t)^2 where radiance is refracted: the
 // Fresnel factor and the probability of the lobe cancel.
-RC_GTEST_PROP(Glass, RadianceIsSqueezedAndPowerIsNot, ())
+RC_GTEST_PROP(Glass, RadianceIsSqueezedAndPowerIsNot, ()) // map: eta-squared
 {
     const scenes::Material glass = scenes::Glass{Rgb(0.9), Rgb(0.8), 1.5};
     const Vec3 wo = *any_direction();
@@ -233,7 +233,7 @@ RC_GTEST_PROP(Glass, ARoundTripInAndOutIsLossless, ())
 
 // The reflected and transmitted fractions add up to 1: tests the frequencies of the lobes against
 // Fresnel's equations, and, for power, that the total equals the incident power.
-TEST(Glass, ConservesPower)
+TEST(Glass, ConservesPower) // map: bsdf-glass
 {
     const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), 1.45};
     for (const double z : {0.9, 0.3, -0.9, -0.3}) {
@@ -251,7 +251,7 @@ TEST(Glass, ConservesPower)
     }
 }
 
-TEST(Roulette, StartsAfterTheFourthBounceAndNeverKeepsAWalkForCertain)
+TEST(Roulette, StartsAfterTheFourthBounceAndNeverKeepsAWalkForCertain) // map: roulette
 {
     const scenes::Material white = scenes::Mirror{Rgb(1.0)};
     const scenes::Material red = scenes::Lambertian{Rgb(0.6, 0.1, 0.1)};

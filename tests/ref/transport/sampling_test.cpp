@@ -15,7 +15,7 @@ double cosine_density(const glm::dvec3& w)
     return ref::pdf_solid_angle_cosine_hemisphere(w);
 }
 
-TEST(Sampling, CosineHemisphereFollowsItsDensity)
+TEST(Sampling, CosineHemisphereFollowsItsDensity) // map: cosine-sampling
 {
     const auto sample = [](const Uniforms& u) { return ref::sample_cosine_hemisphere(u[0], u[1]); };
     transport_test::expect_directions_follow_density(sample, cosine_density, transport_test::coarse, 8);
@@ -33,7 +33,7 @@ TEST(Sampling, SphereFollowsItsDensity)
 // The triangle is half of the unit square, so a uniform point has density 2 there. The midpoint rule
 // is exact except for the cells on the diagonal, where 64 x 64 points leave an error of at most 1/64
 // of a cell.
-TEST(Sampling, TriangleFollowsItsDensity)
+TEST(Sampling, TriangleFollowsItsDensity) // map: emission-triangle
 {
     const auto sample = [](const Uniforms& u) {
         const Vec3 b = ref::sample_triangle(u[0], u[1]);
