@@ -230,6 +230,7 @@ TEST_P(LbvhOn, RejectsInvalidBoxesWithTheReferencesMessage)
 
 // ---- without ref/ ----------------------------------------------------------------------------------
 
+// map: refit
 RC_GTEST_PROP(LbvhRefit, AfterPrimitivesMoveGivesTheBoxesOfTheNewPlaces, ())
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());

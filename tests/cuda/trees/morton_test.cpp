@@ -75,7 +75,8 @@ double cells_apart(const std::vector<ref::Aabb>& boxes, int axis, int bits)
     return std::ceil(1.01 * std::ldexp(4 * error / (upper - lower - 2 * error) + 3 * 0x1p-24, bits));
 }
 
-RC_GTEST_PROP(MortonCodeInFloat, IsAFewCellsFromTheReferenceAlongEachAxis, ()) // map: morton-cell
+// map: morton-cell, morton-code
+RC_GTEST_PROP(MortonCodeInFloat, IsAFewCellsFromTheReferenceAlongEachAxis, ())
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const auto kind = static_cast<Kind>(*rc::gen::inRange(0, trees_test::kinds));
