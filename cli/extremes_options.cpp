@@ -34,7 +34,9 @@ void add_extremes_options(CLI::App& command, ExtremesCommand& options)
         ->excludes("--cases")
         ->excludes("--seed");
     command.add_flag("--json", options.json, "Print the results as JSON and not as a table");
-    command.add_flag("--markdown", options.markdown, "Print the results as a part of docs/extremes.md")
+    command
+        .add_flag("--markdown", options.markdown,
+                  "Print the results as a part of docs/results/extremes.md")
         ->excludes("--json");
     command.add_flag("-q,--quiet", options.quiet, "No progress");
 }

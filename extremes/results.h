@@ -64,8 +64,8 @@ std::string table(const Json& results);
 /// points.
 std::string limits_in_markdown(const Json& results);
 
-/// The part of docs/extremes.md that the program writes: the table of limits, and a section for each
-/// axis with its picture (images/extremes_NAME.png), its limits, their derivation, and the first
+/// The part of docs/results/extremes.md that the program writes: the table of limits, and a section for
+/// each axis with its picture (../images/extremes_NAME.png), its limits, their derivation, and the first
 /// failures of all methods.
 std::string markdown(const Json& results);
 
