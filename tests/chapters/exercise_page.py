@@ -24,9 +24,10 @@ def test_name(full):
     return suite.split("/")[-1], name.split("/")[0]
 
 
-def is_defined(test, sources):
-    suite, name = test_name(test)
-    return any(re.search(rf"\b(TEST|TEST_P|TEST_F|RC_GTEST_PROP)\({suite},\s*{name}\b", text) for text in sources)
+def defined_tests():
+    """(suite, name) of all tests in C++."""
+    macro = re.compile(r"\b(?:TEST|TEST_P|TEST_F|RC_GTEST_PROP)\((\w+),\s*(\w+)")
+    return {pair for path in (ROOT / "tests").rglob("*_test.cpp") for pair in macro.findall(path.read_text())}
 
 
 def sections(page):
@@ -38,7 +39,7 @@ def sections(page):
     return found
 
 
-def faults_of(exercise, section, sources):
+def faults_of(exercise, section, tests):
     applied = subprocess.run(["git", "apply", "--check", "-"], cwd=ROOT, input=exercise.diff, text=True, capture_output=True)
     if applied.returncode != 0:
         yield f"{exercise.name}.patch does not apply: {applied.stderr.strip()}"
@@ -53,7 +54,7 @@ def faults_of(exercise, section, sources):
         if not exercise.program.startswith("test_"):
             if exercise.program not in answer:
                 yield f"{exercise.name}: the answer does not name {exercise.program}"
-        elif not is_defined(test, sources):
+        elif test_name(test) not in tests:
             yield f"{exercise.name}: there is no test {test}"
         elif test_name(test)[1] not in answer:
             yield f"{exercise.name}: the answer does not name {test_name(test)[1]}"
@@ -62,8 +63,8 @@ def faults_of(exercise, section, sources):
 def main():
     page = sections((ROOT / PAGE).read_text())
     all_exercises = exercises()
-    sources = [path.read_text() for path in (ROOT / "tests").rglob("*_test.cpp")]
-    faults = [fault for exercise in all_exercises for fault in faults_of(exercise, page.get(exercise.name), sources)]
+    tests = defined_tests()
+    faults = [fault for exercise in all_exercises for fault in faults_of(exercise, page.get(exercise.name), tests)]
     faults += [f"{name}: there is no such patch" for name in page if name not in {e.name for e in all_exercises}]
     if len(all_exercises) < FEWEST:
         faults.append(f"there are only {len(all_exercises)} exercises")
