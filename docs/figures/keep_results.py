@@ -3,6 +3,7 @@ trade`, compressed. The repository keeps it, so that the pictures can be drawn w
 
 import gzip
 import json
+import os
 import sys
 
 POINT = ("parameter", "cases", "errors", "median", "largest", "failures", "not_walked")
@@ -43,16 +44,20 @@ def lines(value, depth):
 
 
 def main(source, target, which="", *axes):
-    with open(source, encoding="utf-8") as file:
-        results = json.load(file)
+    try:
+        with open(source, encoding="utf-8") as file:
+            results = json.load(file)
+    except (OSError, ValueError) as error:
+        sys.exit(f"{source}: {error}")
     if results.get("complete") is False:
         sys.exit(f"{source}: the measurement was interrupted, so it is not kept")
     extremes = "axes" in results
     if which:
         results["axes"] = [one for one in results["axes"] if (one["name"] in axes) == (which == "--only")]
     text = lines(kept_extremes(results) if extremes else kept_trade(results), 6 if extremes else 2) + "\n"
-    with open(target, "wb") as file:
+    with open(f"{target}.new", "wb") as file:
         file.write(gzip.compress(text.encode(), mtime=0))
+    os.replace(f"{target}.new", target)
 
 
 if __name__ == "__main__":

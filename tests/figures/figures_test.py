@@ -1,7 +1,9 @@
 """./run figures in a small repository: what it finds stale, what it overwrites, and what it says."""
 
 import contextlib
+import gzip
 import io
+import json
 import os
 import shutil
 import sys
@@ -13,6 +15,7 @@ sys.path.append(os.path.join(ROOT, "docs", "figures"))
 
 import figure_compare
 import figures
+import keep_results
 from figure_table import begin_mark
 
 DOT = """
@@ -134,6 +137,20 @@ class Figures(unittest.TestCase):
         self.table(DOT + "data = ['docs/data.json']\nmeasured_by = './run measure dot'")
         self.expect(0, "Not checked: dot: docs/data.json is missing, which ./run measure dot writes", "--check")
         self.expect(2, "docs/data.json is missing", "--check", "dot")
+
+    def test_keeps_what_is_drawn_of_a_walk(self):
+        point = {"parameter": 1 / 3, "cases": 4, "errors": 3, "median": 0.0, "largest": 1 / 3, "failures": {}, "refusal": "",
+                 "notice": "n", "not_walked": ""}
+        axes = [{"name": name, "about": "...", "methods": [{"name": "ref", "safe": None, "points": [point]}]} for name in "abc"]
+        self.write("walk.json", json.dumps({"format": "f", "complete": True, "axes": axes}))
+        source, target = (os.path.join(self.root, name) for name in ("walk.json", "kept.json.gz"))
+        keep_results.main(source, target, "--without", "a", "c")
+        with gzip.open(target) as file:
+            kept = json.load(file)
+        self.assertEqual(kept, {"format": "f", "complete": True, "axes": [{"name": "b", "methods": [{"name": "ref", "points": [
+            {"parameter": 1 / 3, "cases": 4, "errors": 3, "largest": 0.333333}]}]}]})
+        self.write("walk.json", json.dumps({"complete": False, "axes": axes}))
+        self.assertRaises(SystemExit, keep_results.main, source, target)
 
     def test_plots_may_differ_in_edges_and_text_and_not_in_what_is_plotted(self):
         try:
