@@ -1,4 +1,4 @@
-"""keep_results.py FROM TO [--only AXIS | --without AXIS]: what the pictures and tables of docs/ need of the JSON of `plumbline extremes` or `plumbline
+"""keep_results.py FROM TO [--only AXIS... | --without AXIS...]: what the pictures and tables of docs/ need of the JSON of `plumbline extremes` or `plumbline
 trade`, compressed. The repository keeps it, so that the pictures can be drawn without measuring again."""
 
 import gzip
@@ -42,14 +42,14 @@ def lines(value, depth):
     return "[\n" + ",\n".join(lines(item, depth - 1) for item in value) + "\n]"
 
 
-def main(source, target, which="", axis=""):
+def main(source, target, which="", *axes):
     with open(source, encoding="utf-8") as file:
         results = json.load(file)
     if results.get("complete") is False:
         sys.exit(f"{source}: the measurement was interrupted, so it is not kept")
     extremes = "axes" in results
     if which:
-        results["axes"] = [one for one in results["axes"] if (one["name"] == axis) == (which == "--only")]
+        results["axes"] = [one for one in results["axes"] if (one["name"] in axes) == (which == "--only")]
     text = lines(kept_extremes(results) if extremes else kept_trade(results), 6 if extremes else 2) + "\n"
     with open(target, "wb") as file:
         file.write(gzip.compress(text.encode(), mtime=0))

@@ -72,7 +72,7 @@ TEST(ExtremesCommand, ShowsEarlierResultsWithoutAWalk)
     const std::string first = (folder / "first.html").string();
     const std::string second = (folder / "second.html").string();
     const Outcome walked =
-        run({"extremes", "albedo", "--cases", "3", "-o", json, "--report", first, "--markdown"});
+        run({"extremes", "gap", "--cases", "3", "-o", json, "--report", first, "--markdown"});
     auto kept = nlohmann::ordered_json::parse(read_bytes(json));
     for (auto& method : kept.at("axes").at(0).at("methods")) {
         method = {{"name", method.at("name")}, {"points", method.at("points")}};
@@ -84,13 +84,13 @@ TEST(ExtremesCommand, ShowsEarlierResultsWithoutAWalk)
     const Outcome shown = run({"extremes", "--from", json, "--report", second, "--markdown"});
     EXPECT_EQ(shown.status, walked.status) << shown.err;
     EXPECT_EQ(shown.out, walked.out);
-    EXPECT_NE(shown.out.find("(`albedo`)"), std::string::npos);
+    EXPECT_NE(shown.out.find("(`gap`)"), std::string::npos);
     EXPECT_EQ(read_bytes(second), read_bytes(first));
 
     const std::string ior = (folder / "ior.json").string();
     ASSERT_EQ(run({"extremes", "ior", "--methods", "ref", "--cases", "3", "-q", "-o", ior}).status, 0);
     const Outcome both = run({"extremes", "--from", ior, json, "--markdown"});
-    for (const char* name : {"(`albedo`)", "(`ior`)"})
+    for (const char* name : {"(`gap`)", "(`ior`)"})
         EXPECT_NE(both.out.find(name), std::string::npos) << both.out;
 
     const Outcome other = run({"extremes", "ior", "--from", json});

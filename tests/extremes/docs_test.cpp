@@ -18,7 +18,7 @@ TEST(ExtremesDocumentation, HasTheLimitsOfTheProgram)
     const std::string text =
         images::read_file(std::string(PLUMBLINE_SOURCE_DIR) + "/docs/results/extremes.md");
     EXPECT_NE(text.find(limits_in_markdown(json)), std::string::npos)
-        << "the table of limits is not this one (./run figures extremes_all writes it):\n"
+        << "the table of limits is not this one (./run figures extremes_long writes it):\n"
         << limits_in_markdown(json);
     for (const Json& axis : json.at("axes")) {
         const std::string name = axis.at("name");

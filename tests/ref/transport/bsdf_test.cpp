@@ -39,6 +39,7 @@ TEST(Bsdf, LambertianSamplesFollowTheirDensityOnBothSides) // map: bsdf-lamberti
     }
 }
 
+// map: bsdf-lambertian
 RC_GTEST_PROP(Bsdf, LambertianIsReciprocalAndItsDensitiesAgreeWithTheSample, ())
 {
     const scenes::Material material = scenes::Lambertian{Rgb(0.2, 0.5, 0.9)};

@@ -124,6 +124,7 @@ ref::Vertex facing_vertex(const ref::Vertex& y0, const Vec3& w)
 
 // For a finite emitter the direction is tested by chi-squared; for an emitter at infinity the position
 // on the disc, which must cover the ball around the scene.
+// map: emission-surface, emission-point, emission-spot
 TEST_P(Emission, DirectionsFollowTheirDensity)
 {
     const auto y0 = [&](const ref::Uniforms& u) {
