@@ -10,7 +10,8 @@ esac
 venv=build/book/venv
 if ! cmp -s docs/book/requirements.txt "$venv/installed.txt"; then
     python3 -m venv --clear "$venv"
-    "$venv/bin/pip" install -q --disable-pip-version-check -r docs/book/requirements.txt
+    "$venv/bin/pip" install -q --disable-pip-version-check -r docs/book/requirements.txt 2>"$venv/pip.log" ||
+        { echo "MkDocs cannot be installed into $venv: $(tail -n 1 "$venv/pip.log")" >&2; exit 2; }
     cp docs/book/requirements.txt "$venv/installed.txt"
 fi
 export NO_MKDOCS_2_WARNING=true PYTHONDONTWRITEBYTECODE=1
