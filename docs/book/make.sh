@@ -7,6 +7,8 @@ case "${1:-}" in
     --check | --serve | "") ;;
     *) echo "Usage: ./run book [--check|--serve]" >&2; exit 2 ;;
 esac
+katex=${PLUMBLINE_KATEX:-/usr/share/javascript/katex}
+[ -f "$katex/katex.min.js" ] || { echo "$katex: no KaTeX there, which draws the formulas (Debian: libjs-katex)" >&2; exit 2; }
 venv=build/book/venv
 if ! cmp -s docs/book/requirements.txt "$venv/installed.txt"; then
     python3 -m venv --clear "$venv"
