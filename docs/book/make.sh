@@ -7,10 +7,13 @@ case "${1:-}" in
     --check | --serve | "") ;;
     *) echo "Usage: ./run book [--check|--serve]" >&2; exit 2 ;;
 esac
+katex=${PLUMBLINE_KATEX:-/usr/share/javascript/katex}
+[ -f "$katex/katex.min.js" ] || { echo "$katex: no KaTeX there, which draws the formulas (Debian: libjs-katex)" >&2; exit 2; }
 venv=build/book/venv
 if ! cmp -s docs/book/requirements.txt "$venv/installed.txt"; then
     python3 -m venv --clear "$venv"
-    "$venv/bin/pip" install -q --disable-pip-version-check -r docs/book/requirements.txt
+    "$venv/bin/pip" install -q --disable-pip-version-check -r docs/book/requirements.txt 2>"$venv/pip.log" ||
+        { echo "MkDocs cannot be installed into $venv: $(tail -n 1 "$venv/pip.log")" >&2; exit 2; }
     cp docs/book/requirements.txt "$venv/installed.txt"
 fi
 export NO_MKDOCS_2_WARNING=true PYTHONDONTWRITEBYTECODE=1
