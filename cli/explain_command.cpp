@@ -101,8 +101,7 @@ ExitStatus explain_one(const ExplainCommand& options)
     if (!options.pixel.empty()) (void)pixel_of(options, size.width, size.height);
     if (!options.where.empty()) (void)explain::Condition(options.where);
     const scenes::Scene scene = load_scene(render.scene, render.frame, render.quiet);
-    const ref::World world(scene, size.width, size.height, ref::Builder::sah_leaf,
-                           epsilon_in(scene, render));
+    const ref::World world(scene, size.width, size.height, ref::Builder::sah_leaf);
     const Picture picture{world, plan};
     if (options.largest) return explain_largest(options, picture);
     if (!options.where.empty()) return explain_first(options, picture);
