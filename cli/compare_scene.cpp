@@ -19,8 +19,8 @@ bool same_estimator(const images::Metadata& a, const images::Metadata& b)
 {
     const images::Metadata all_of_a = with_defaults(a);
     const images::Metadata all_of_b = with_defaults(b);
-    for (const char* key : {"integrator", "heuristic", "batch_size", "max_edges", "roulette",
-                            "roulette_from", "epsilon", "without"})
+    for (const char* key :
+         {"integrator", "heuristic", "batch_size", "max_edges", "roulette", "roulette_from", "without"})
         if (value_of(all_of_a, key).empty() || value_of(all_of_a, key) != value_of(all_of_b, key))
             return false;
     return true;

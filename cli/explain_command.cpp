@@ -109,8 +109,7 @@ ExitStatus explain_one(const ExplainCommand& options)
     if (!options.pixel.empty()) (void)pixel_of(options, size.width, size.height);
     if (!options.where.empty()) (void)explain::Condition(options.where);
     const scenes::Scene scene = load_scene(render.scene, render.frame, render.quiet);
-    const ref::World world(scene, size.width, size.height, ref::Builder::sah_leaf,
-                           epsilon_in(scene, render));
+    const ref::World world(scene, size.width, size.height, ref::Builder::sah_leaf);
     std::optional<explain::FastScene> fast;
     if (render.device == "host") fast.emplace(scene, size.width, size.height, plan.roulette);
     const Picture picture{world, plan, fast ? &*fast : nullptr};

@@ -50,7 +50,6 @@ std::vector<Rule> rules_for(const RenderCommand& options)
          with_device + "its trees are " + listed(builder_names(options.device))},
         {"--roulette-from", options.no_roulette, "with --no-roulette"},
         {"--roulette-from", options.device != "ref", with_device + "it is for the reference"},
-        {"--epsilon", options.device != "ref", with_device + "it is for the reference"},
         {"--without", options.device != "ref", with_device + "it is for the reference"},
         {"--leaf-size", options.device != "ref", with_device + "the fast path has a tree of its own"},
         {"--leaf-size", !options.builder.empty() && options.builder != "sah-leaf",

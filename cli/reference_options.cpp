@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace cli {
@@ -39,8 +38,6 @@ void add_experiment_options(CLI::App& command, RenderCommand& options)
                     "For ref: the first bounce that roulette may end, at least 1")
         ->check(CLI::Range(1, 1 << 20).description(""))
         ->capture_default_str();
-    command.add_option("--epsilon", options.epsilon,
-                       "For ref: leave surfaces by this fixed distance, a warning example");
     command
         .add_option("--without", options.without,
                     "For ref: omit emission_hit, next_event, light_image, inner_connection")
@@ -58,8 +55,6 @@ images::Families families_of(const RenderCommand& options)
 
 void check_reference_options(const RenderCommand& options)
 {
-    if (options.epsilon && !(*options.epsilon > 0.0 && std::isfinite(*options.epsilon)))
-        throw std::invalid_argument("--epsilon: expected a length above 0");
     try {
         images::expect_families(render_options(options).integrator, families_of(options));
     } catch (const std::invalid_argument& error) {

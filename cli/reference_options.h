@@ -15,8 +15,7 @@ void add_experiment_options(CLI::App& command, RenderCommand& options);
 /// The families of strategies that contribute: all but those of --without.
 images::Families families_of(const RenderCommand& options);
 
-/// Throws std::invalid_argument for an --epsilon that is no length, and unless the integrator has the
-/// families of --without, and others.
+/// Throws std::invalid_argument unless the integrator has the families of --without, and others.
 void check_reference_options(const RenderCommand& options);
 
 } // namespace cli

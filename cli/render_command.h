@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,7 +32,6 @@ struct RenderCommand {
     int max_edges = images::unlimited_edges;
     bool no_roulette = false;
     int roulette_from = images::RenderOptions{}.roulette_from;
-    std::optional<double> epsilon;    // in units of length of the scene file
     std::vector<std::string> without; // families of strategies
     bool deterministic = false;
     std::uint64_t seed = 0;

@@ -11,8 +11,7 @@ namespace cli {
 namespace {
 
 /// The entries that `describe` leaves out.
-const images::Metadata defaults = {
-    {"device", "ref"}, {"epsilon", "none"}, {"roulette_from", "5"}, {"without", "nothing"}};
+const images::Metadata defaults = {{"device", "ref"}, {"roulette_from", "5"}, {"without", "nothing"}};
 
 /// The families that are left out, in the order of their names' list.
 std::string names_of_left_out(const RenderCommand& options)
@@ -52,7 +51,6 @@ images::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
     };
     add("device", options.device + (options.instructions == "fastmath" ? ", fastmath" : ""));
     add("roulette_from", std::to_string(options.roulette_from));
-    add("epsilon", options.epsilon ? shortest(*options.epsilon) : "none");
     add("without", names_of_left_out(options));
     return metadata;
 }

@@ -55,23 +55,13 @@ fast::RendererOptions choices_of(const RenderCommand& options)
 
 } // namespace
 
-double epsilon_in(const scenes::Scene& scene, const RenderCommand& options)
-{
-    if (!options.epsilon) return 0.0;
-    const double epsilon = *options.epsilon * scene.unit;
-    if (!(epsilon > 0.0 && epsilon <= 1e100))
-        throw std::invalid_argument("--epsilon: out of range for a scene of this size");
-    return epsilon;
-}
-
 std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, const scenes::Scene& scene)
 {
     const Size size = parse_size(options.size);
     const images::RenderOptions plan = render_options(options);
     if (options.device == "ref")
         return ref::renderer(scene, size.width, size.height, plan, options.threads,
-                             {builder_named(reference_builder(options)), options.leaf_size},
-                             epsilon_in(scene, options));
+                             {builder_named(reference_builder(options)), options.leaf_size});
     if (!options.quiet)
         for (const std::string& notice : fast::float_notices(scene))
             std::cerr << shown_name(options.scene) << ": " << notice << '\n';

@@ -18,9 +18,6 @@ namespace cli {
 /// there is no such device, fast::OutOfMemory, std::invalid_argument.
 std::unique_ptr<images::Renderer> renderer_for(const RenderCommand& options, const scenes::Scene& scene);
 
-/// --epsilon at the scale of `scene`; 0 if it was not given. Throws std::invalid_argument.
-double epsilon_in(const scenes::Scene& scene, const RenderCommand& options);
-
 /// The features of the kernels of the fast path; none for the reference.
 std::optional<fast::Needs> kernel_of(const images::Renderer& renderer);
 

@@ -94,12 +94,6 @@ const std::array knob_rules = {
              [](const Settings&) {
                  return Values{"scene", "specular", "all"};
              }},
-    KnobRule{"epsilon",
-             "distance of rays from surfaces; fixed is a mistake",
-             false,
-             "bound",
-             {{"device", "ref"}},
-             [](const Settings&) { return Values{"bound", "1e-2", "1e-3", "1e-4", "1e-5", "1e-6"}; }},
     KnobRule{"ref-tree",
              "tree of ref",
              false,
@@ -165,7 +159,7 @@ void drop_idle(Settings& settings)
     if (!is(settings, "device", "host")) drop({"instructions"});
     if (!settings.contains("device") || is(settings, "device", "ref")) drop({"kernel-needs"});
     if (settings.contains("device") && !is(settings, "device", "ref")) {
-        drop({"without", "roulette-from", "epsilon"});
+        drop({"without", "roulette-from"});
         if (is(settings, "heuristic", "uniform")) drop({"heuristic"});
     }
     if (settings.contains("builder") || is(settings, "device", "host") || is(settings, "device", "cuda"))

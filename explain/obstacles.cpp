@@ -52,7 +52,6 @@ bool does_not_scatter(const Setting& setting, const ref::Vertex& a, const ref::V
 /// Sets the obstacle of a line that is not free. Returns whether it is not.
 bool is_blocked(const Setting& setting, const ref::LineOfSight& line, Strategy& strategy)
 {
-    if (line.test == ref::LineOfSight::Test::passed) return false;
     if (line.test == ref::LineOfSight::Test::in_plane) {
         set(strategy, Obstacle::in_plane);
         return true;
@@ -156,7 +155,7 @@ void find_obstacle_of_inner_connection(const Setting& setting, std::span<const r
     const Rgb f =
         evaluate_bsdf(world, y[y.size() - 2], a, b) * evaluate_bsdf(world, a, b, z[z.size() - 2]);
     if (f == Rgb(0.0)) return set(strategy, Obstacle::black);
-    if (is_blocked(setting, line_of_sight(world.geometry, a.point, b.point), strategy)) return;
+    if (is_blocked(setting, line_of_sight(a.point, b.point), strategy)) return;
     expect_vanishing(strategy, a.alpha * f * geometric_term(a, b) * b.alpha);
 }
 

@@ -50,6 +50,12 @@ void Program::add_flag(const std::string& name, bool& flag, const std::string& d
     app_->add_flag(name, flag, description);
 }
 
+void Program::add_number(const std::string& name, int& number, int least, int most,
+                         const std::string& description)
+{
+    app_->add_option(name, number, description)->check(CLI::Range(least, most))->capture_default_str();
+}
+
 void Program::set_footer(const std::string& footer)
 {
     app_->footer(footer);

@@ -43,6 +43,9 @@ public:
     /// A file that must be named.
     void add_file(const std::string& name, std::string& file, const std::string& description);
     void add_flag(const std::string& name, bool& flag, const std::string& description);
+    /// A whole number from `least` to `most`; its value before is the default.
+    void add_number(const std::string& name, int& number, int least, int most,
+                    const std::string& description);
     /// The last lines of --help.
     void set_footer(const std::string& footer);
     /// Reads the command line, then calls `work`. Returns the exit status.

@@ -36,9 +36,8 @@ private:
 class SceneRenderer : private World, public RefRenderer {
 public:
     SceneRenderer(const scenes::Scene& source, int width, int height,
-                  const images::RenderOptions& options, unsigned threads, const BuildOptions& tree,
-                  double epsilon)
-        : World(source, width, height, tree, epsilon),
+                  const images::RenderOptions& options, unsigned threads, const BuildOptions& tree)
+        : World(source, width, height, tree),
           RefRenderer(static_cast<const World&>(*this), integrator_of(options.integrator), options,
                       threads)
     {}
@@ -67,9 +66,9 @@ std::unique_ptr<images::Renderer> renderer(const World& world, Integrator integr
 
 std::unique_ptr<images::Renderer> renderer(const scenes::Scene& scene, int width, int height,
                                            const images::RenderOptions& options, unsigned threads,
-                                           const BuildOptions& tree, double epsilon)
+                                           const BuildOptions& tree)
 {
-    return std::make_unique<SceneRenderer>(scene, width, height, options, threads, tree, epsilon);
+    return std::make_unique<SceneRenderer>(scene, width, height, options, threads, tree);
 }
 
 } // namespace ref

@@ -25,7 +25,6 @@ std::unique_ptr<images::Renderer> renderer(const World& world, Integrator integr
 /// The same for a scene, which must have a camera and must outlive the renderer. See World.
 std::unique_ptr<images::Renderer> renderer(const scenes::Scene& scene, int width, int height,
                                            const images::RenderOptions& options, unsigned threads = 1,
-                                           const BuildOptions& tree = Builder::sah_leaf,
-                                           double epsilon = 0.0);
+                                           const BuildOptions& tree = Builder::sah_leaf);
 
 } // namespace ref

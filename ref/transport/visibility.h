@@ -12,18 +12,10 @@
 
 namespace ref {
 
-/// Whether the ends of a segment d, moved to `from` and `to` by the fixed distance Geometry::epsilon,
-/// have passed each other: then nothing of it is left to be tested.
-inline bool is_used_up(const Geometry& geometry, const Vec3& d, const Vec3& from, const Vec3& to)
-{
-    return geometry.epsilon() != 0.0 && glm::dot(to - from, d) <= 0.0;
-}
-
 /// What has to be free of surfaces so that two points see each other: `ray`, if `test` says so.
 struct LineOfSight {
     enum class Test {
         ray,     // free if `ray` hits nothing
-        passed,  // free: see is_used_up
         in_plane // not free: a triangle contains both points
     };
     Test test;
@@ -31,12 +23,11 @@ struct LineOfSight {
 };
 
 /// Between two points on surfaces.
-inline LineOfSight line_of_sight(const Geometry& geometry, const SurfacePoint& a, const SurfacePoint& b)
+inline LineOfSight line_of_sight(const SurfacePoint& a, const SurfacePoint& b)
 {
     const Vec3 d = b.position - a.position;
     const Vec3 from = leave_surface(a, d);
     const Vec3 to = end_at_surface(b, -d);
-    if (is_used_up(geometry, d, from, to)) return {LineOfSight::Test::passed, {}};
     return {LineOfSight::Test::ray, {from, to - from, 1.0}};
 }
 
@@ -47,7 +38,6 @@ inline LineOfSight line_of_sight(const Geometry& geometry, const SurfacePoint& a
 {
     const Vec3 d = b - a.position;
     const Vec3 from = leave_surface(a, d);
-    if (is_used_up(geometry, d, from, b)) return {LineOfSight::Test::passed, {}};
     if (b_on.empty()) return {LineOfSight::Test::ray, {from, b - from, 1.0}};
     const bool in_plane = a.primitive < geometry.scene().triangles.size() &&
                           std::ranges::find(b_on, a.primitive) != b_on.end();
@@ -61,19 +51,18 @@ inline LineOfSight line_of_sight(const Geometry& geometry, const SurfacePoint& p
 {
     if (light.infinite) return {LineOfSight::Test::ray, {leave_surface(point, light.wi), light.wi}};
     if (light.delta) return line_of_sight(geometry, point, light.end.position, light.emitter->on);
-    return line_of_sight(geometry, point, light.end);
+    return line_of_sight(point, light.end);
 }
 
 inline bool is_free(const Geometry& geometry, const LineOfSight& line)
 {
-    return line.test == LineOfSight::Test::passed ||
-           (line.test == LineOfSight::Test::ray && !occluded(geometry, line.ray));
+    return line.test == LineOfSight::Test::ray && !occluded(geometry, line.ray);
 }
 
 /// Whether no surface lies between two points on surfaces.
 inline bool visible(const Geometry& geometry, const SurfacePoint& a, const SurfacePoint& b)
 {
-    return is_free(geometry, line_of_sight(geometry, a, b));
+    return is_free(geometry, line_of_sight(a, b));
 }
 
 /// Whether no surface lies between a point on a surface and a point in free space, which lies on the

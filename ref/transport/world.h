@@ -15,10 +15,9 @@
 
 namespace ref {
 
-/// A scene prepared for rendering; `epsilon` as for Geometry. Keeps a reference to the scene, which must
-/// outlive it and must have a camera. Throws std::invalid_argument if the scene is so large or so small
-/// that products of three lengths would leave the range of doubles; scenes::placed scales a scene into
-/// this range.
+/// A scene prepared for rendering. Keeps a reference to the scene, which must outlive it and must have a
+/// camera. Throws std::invalid_argument if the scene is so large or so small that products of three
+/// lengths would leave the range of doubles; scenes::placed scales a scene into this range.
 struct World {
     const scenes::Scene& scene;
     Geometry geometry;
@@ -27,9 +26,9 @@ struct World {
     std::vector<std::uint32_t> eye_on; // surfaces that the eye lies on
 
     World(const scenes::Scene& source, int width, int height,
-          const BuildOptions& tree = Builder::sah_leaf, double epsilon = 0.0)
-        : scene(source), geometry(source, tree, scenes::coincidences(source), epsilon),
-          emitters(geometry), camera(source.camera.value(), width, height),
+          const BuildOptions& tree = Builder::sah_leaf)
+        : scene(source), geometry(source, tree, scenes::coincidences(source)), emitters(geometry),
+          camera(source.camera.value(), width, height),
           eye_on(scenes::surfaces_at(source, source.camera->eye))
     {
         const double size = geometry.diagonal();

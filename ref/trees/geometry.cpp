@@ -8,18 +8,13 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace ref {
 
-Geometry::Geometry(const scenes::Scene& scene, const BuildOptions& tree, scenes::Coincidences coincident,
-                   double epsilon)
-    : scene_(&scene), tree_(build(primitive_bounds(scene), tree)), coincident_(std::move(coincident)),
-      epsilon_(epsilon)
+Geometry::Geometry(const scenes::Scene& scene, const BuildOptions& tree, scenes::Coincidences coincident)
+    : scene_(&scene), tree_(build(primitive_bounds(scene), tree)), coincident_(std::move(coincident))
 {
-    if (!(epsilon >= 0.0 && epsilon <= 1e100))
-        throw std::invalid_argument("the fixed distance by which rays leave surfaces is out of range");
     if (tree_.nodes.empty()) return;
     const Aabb& box = tree_.bounds[0];
     diagonal_ = glm::length(box.upper - box.lower);
@@ -156,7 +151,6 @@ SurfacePoint triangle_point(const Geometry& geometry, std::uint32_t triangle, co
     const Vec3 a = geometry.extent(triangle, box);
     SurfacePoint point{};
     point.primitive = triangle;
-    point.epsilon = geometry.epsilon();
     point.material = geometry.scene().triangles[triangle].material;
     point.position = v[0] + (b1 * e1 + b2 * e2);
     point.normal = scaled_normalize(glm::cross(e1, e2));
@@ -172,7 +166,6 @@ SurfacePoint sphere_point(const Geometry& geometry, std::uint32_t sphere, const 
     const scenes::Sphere& s = geometry.scene().spheres[sphere];
     SurfacePoint point{};
     point.primitive = static_cast<std::uint32_t>(geometry.scene().triangles.size()) + sphere;
-    point.epsilon = geometry.epsilon();
     point.material = s.material;
     point.normal = glm::normalize(direction);
     point.position = s.center + s.radius * point.normal;
@@ -194,11 +187,9 @@ SurfacePoint surface_point(const Geometry& geometry, const Ray& ray, const Hit& 
 
 namespace {
 
-/// `point.position` moved off the surface, to the side that `direction` points to: by `distance`, or
-/// along `direction` by point.epsilon.
+/// `point.position` moved off the surface by `distance`, to the side that `direction` points to.
 Vec3 moved_off(const SurfacePoint& point, const Vec3& direction, double distance)
 {
-    if (point.epsilon != 0.0) return point.position + point.epsilon * scaled_normalize(direction);
     const double side = glm::dot(direction, point.normal) < 0 ? -1 : 1;
     return point.position + side * distance * point.normal;
 }

@@ -17,18 +17,16 @@ namespace ref {
 class Geometry {
 public:
     /// `coincident`: surfaces that lie in the same place (scenes/contacts.h). Between two coincident
-    /// surfaces that are not listed there, rounding decides which one a ray hits. `epsilon`: 0, or the
-    /// fixed distance of a warning example, up to 1e100; see leave_surface. Throws
-    /// std::invalid_argument for another epsilon, and for a coordinate that is NaN or infinite: it names
-    /// the first such primitive.
+    /// surfaces that are not listed there, rounding decides which one a ray hits. Throws
+    /// std::invalid_argument for a coordinate that is NaN or infinite: it names the first such
+    /// primitive.
     explicit Geometry(const scenes::Scene& scene, const BuildOptions& tree = Builder::sah_leaf,
-                      scenes::Coincidences coincident = {}, double epsilon = 0.0);
+                      scenes::Coincidences coincident = {});
     [[nodiscard]] const scenes::Scene& scene() const { return *scene_; }
     [[nodiscard]] const Tree& tree() const { return tree_; }
     /// The diagonal of the box around all primitives: an upper bound on the distance between two
     /// surface points.
     [[nodiscard]] double diagonal() const { return diagonal_; }
-    [[nodiscard]] double epsilon() const { return epsilon_; }
     [[nodiscard]] const scenes::Coincidences& coincident() const { return coincident_; }
     /// The largest extent, along each axis, of the surfaces that a point of `primitive` may lie on:
     /// `own`, the extent of `primitive` itself, or the diagonal if other surfaces coincide with it.
@@ -49,7 +47,6 @@ private:
     scenes::Coincidences coincident_;
     double diagonal_ = 0;
     double slack_ = 0;
-    double epsilon_;
 };
 
 /// The hit of smallest t. Of several hits at the same t it is the one with the lowest primitive
@@ -77,10 +74,7 @@ SurfacePoint sphere_point(const Geometry& geometry, std::uint32_t sphere, const 
 /// `point.position` moved off the surface by exactly its error bound, to the side that `direction`
 /// (any length) points to. A ray that starts there cannot hit the surface that it leaves, nor one that
 /// coincides with it. No constant has a unit, so the scale of the scene does not matter.
-///
-/// If point.epsilon is not 0, the position is moved along `direction` by that fixed distance instead, as
-/// in many renderers: a warning example. The ray misses all surfaces within this distance: light leaks
-/// there.
+/// (docs/leaving-a-surface.md shows what a fixed distance does instead.)
 Vec3 leave_surface(const SurfacePoint& point, const Vec3& direction);
 
 /// The same for the end of a segment that starts elsewhere: the rounding along the segment is added.

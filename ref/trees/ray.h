@@ -38,7 +38,6 @@ struct SurfacePoint {
     Vec3 normal; // unit geometric normal: by winding for a triangle, outward for a sphere
     std::uint32_t primitive;
     std::uint32_t material;
-    double epsilon = 0.0; // of its Geometry
 };
 
 } // namespace ref

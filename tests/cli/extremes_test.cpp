@@ -67,22 +67,6 @@ TEST(Extremes, ASceneScaledByAPowerOfTwoHasTheSamePictureToTheBit)
         }
 }
 
-// --epsilon is a length in the file's units, whatever the scale at which the scene is rendered.
-TEST(Extremes, AnEpsilonHasTheUnitOfTheScene)
-{
-    const TemporaryFolder folder;
-    const auto mean = [&](const std::filesystem::path& scene, const char* epsilon) {
-        return mean_of(render(scene, {"--epsilon", epsilon}));
-    };
-    const Mean right = mean(scene_file("cornell_glass"), "0.0078125"); // 2^-7
-    EXPECT_NE(right, mean_of(render(scene_file("cornell_glass"), {})));
-    EXPECT_EQ(mean(wrapped(folder, "cornell_glass", scale(0x1p10)), "8"), right);
-    EXPECT_EQ(mean(wrapped(folder, "cornell_glass", scale(0x1p-10)), "0.00000762939453125"), right);
-    const Outcome too_far = render(scene_file("cornell_glass"), {"--epsilon", "1e200"});
-    EXPECT_EQ(too_far.status, 2);
-    EXPECT_EQ(too_far.err, "plumbline: --epsilon: out of range for a scene of this size\n");
-}
-
 // Rounding differs, so one path in a billion may take another direction. The means agree to 1e-10.
 TEST(Extremes, ASceneOfAnySizeHasTheSamePicture)
 {

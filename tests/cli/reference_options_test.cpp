@@ -76,9 +76,4 @@ TEST_F(ReferenceOptions, RouletteFromIsTheFirstBounceThatItMayEnd)
     expect_another_picture({"--roulette-from", "2"}, "roulette_from", "2");
 }
 
-TEST_F(ReferenceOptions, EpsilonIsTheDistanceByWhichRaysLeave)
-{
-    expect_another_picture({"--epsilon", "0.0100"}, "epsilon", "0.01");
-}
-
 } // namespace

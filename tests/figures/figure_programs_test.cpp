@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 namespace {
@@ -22,7 +23,8 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(All, FigureProgram,
                          testing::Values("figure_epsilon", "figure_equal_time", "figure_fast_transport",
-                                         "figure_tree_by_hand", "figure_uniform_weights"),
+                                         "figure_ladder", "figure_leaving", "figure_tree_by_hand",
+                                         "figure_uniform_weights"),
                          [](const auto& program) { return std::string(program.param); });
 
 TEST_P(FigureProgram, SaysHowItIsCalled)
@@ -143,6 +145,78 @@ TEST_F(TreeByHand, NeedsItsMarks)
     EXPECT_EQ(twice.status, 2);
     EXPECT_NE(twice.err.find("page.md: no part of the page, or one twice: keys"), std::string::npos)
         << twice.err;
+}
+
+// The rungs of docs/ladder.md have the same mean where each of them sees all light. The half width of an
+// interval of 8 rounds is 2.36 standard errors (Student, 7 degrees of freedom); five half widths are
+// exceeded by chance in 1 of 1e5 pictures. A path that counts twice adds much more: more than half of
+// the light of this room is found by each of the first two rungs.
+TEST(Ladder, AllRungsHaveTheSameMean)
+{
+    const TemporaryFolder folder;
+    std::string page = "before\n";
+    for (const char* part : {"cornell_diffuse", "machine"})
+        page += "<!-- figure_ladder: " + std::string(part) + " -->\n<!-- figure_ladder: end -->\n";
+    write_bytes(folder.path() / "page.md", page);
+    const auto programs = std::filesystem::path(PLUMBLINE_PROGRAM).parent_path();
+    const Outcome outcome =
+        run({(folder.path() / "page.md").string(), folder.path().string(), scene_file("cornell_diffuse"),
+             "--width", "24", "--rounds", "8", "--seconds", "0.03", "--reference-seconds", "0.5"},
+            {.program = (programs / "figure_ladder").string()});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const std::string written = read_bytes(folder.path() / "page.md");
+    EXPECT_TRUE(written.starts_with(page.substr(0, page.find('\n')))) << written;
+    std::size_t rungs = 0;
+    for (const auto& row : cells_of(written)) {
+        double mean = 0.0;
+        double half_width = 0.0;
+        if (row.size() != 7 || std::sscanf(row[6].c_str(), " %lf +- %lf", &mean, &half_width) != 2)
+            continue;
+        EXPECT_NEAR(mean, 100.0, 5 * half_width) << row[1];
+        EXPECT_LT(half_width, 10.0) << row[1];
+        ++rungs;
+    }
+    EXPECT_EQ(rungs, 5u) << written;
+    for (const char* picture : {"emission", "next_event", "path", "light", "bdpt", "reference", "sheet"})
+        EXPECT_TRUE(exists(folder.path() / ("ladder_" + std::string(picture) + ".png"))) << picture;
+}
+
+// docs/leaving-a-surface.md: a distance that is too small meets the surface again, one that is too large
+// leaks light through the wall, and the bound does neither, at any scale. The pictures have the same
+// random numbers as the right one, so the means agree but for paths that rounding sends elsewhere.
+TEST(Leaving, FixedDistancesFailAtOneScaleOrTheOtherAndTheBoundAtNone)
+{
+    const TemporaryFolder folder;
+    std::string page;
+    for (const char* part : {"scales", "rings", "leaks"})
+        page += "<!-- figure_leaving: " + std::string(part) + " -->\n<!-- figure_leaving: end -->\n";
+    write_bytes(folder.path() / "page.md", page);
+    const auto programs = std::filesystem::path(PLUMBLINE_PROGRAM).parent_path();
+    const Outcome outcome = run({(folder.path() / "page.md").string(), folder.path().string(),
+                                 scene_file("cornell_glass"), scene_file("door_ajar"), "--samples", "1"},
+                                {.program = (programs / "figure_leaving").string()});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    struct Values {
+        double self_hits, brightness; // in percent
+    };
+    std::map<std::string, std::vector<Values>>
+        rules; // by rule: scale 1 and 1000, the ball twice, the door
+    for (const auto& row : cells_of(read_bytes(folder.path() / "page.md"))) {
+        Values values{};
+        if (row.size() == 5 && std::sscanf(row[3].c_str(), " %lf", &values.self_hits) == 1 &&
+            std::sscanf(row[4].c_str(), " %lf", &values.brightness) == 1)
+            rules[row[2]].push_back(values);
+    }
+    ASSERT_EQ(rules.size(), 4u);
+    for (const auto& [rule, values] : rules) ASSERT_EQ(values.size(), 5u) << rule;
+    for (const Values& bound : rules[" error bound "]) {
+        EXPECT_EQ(bound.self_hits, 0.0);
+        EXPECT_NEAR(bound.brightness, 100.0, 0.5);
+    }
+    for (const Values& small : rules[" fixed, 1e-07 "]) EXPECT_GT(small.self_hits, 0.05);
+    EXPECT_EQ(rules[" fixed, 0.0001 "][0].self_hits, 0.0);
+    EXPECT_GT(rules[" fixed, 0.0001 "][1].self_hits, 0.05);
+    EXPECT_GT(rules[" fixed, 0.05 "][4].brightness, 110.0);
 }
 
 } // namespace

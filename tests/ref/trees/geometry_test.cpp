@@ -424,25 +424,4 @@ TEST(Geometry, AnEmptySceneIsHitByNothing)
     EXPECT_FALSE(occluded(geometry, {Vec3(0), Vec3(1, 0, 0)}));
 }
 
-// A warning example: with an epsilon, points move by it along the direction, whatever their error.
-TEST(Epsilon, IsTheDistanceByWhichRaysLeaveAndSegmentsEnd)
-{
-    scenes::Scene scene = empty_scene();
-    scene.triangles = {{{Vec3(0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0)}, 0}};
-    scene.spheres = {{Vec3(5.0), 1.0, 0}};
-    const Geometry geometry(scene, ref::Builder::sah_leaf, {}, 0.25);
-    const Vec3 d(0.0, 3.0, 4.0);
-    const Geometry exact(scene);
-    for (const SurfacePoint& point :
-         {triangle_point(geometry, 0, Vec3(0.25, 0.25, 0.5)), sphere_point(geometry, 0, Vec3(1.0)),
-          surface_point(geometry, {Vec3(0.1, 0.1, 1.0), Vec3(0.0, 0.0, -1.0)},
-                        {1.0, 0, Vec3(0.8, 0.1, 0.1)})}) {
-        const Vec3 by(0.0, 0.15, 0.2);
-        EXPECT_LT(glm::length(leave_surface(point, d) - (point.position + by)), 1e-14);
-        EXPECT_LT(glm::length(end_at_surface(point, -d) - (point.position - by)), 1e-14);
-    }
-    const SurfacePoint point = triangle_point(exact, 0, Vec3(0.25, 0.25, 0.5));
-    EXPECT_LT(glm::length(leave_surface(point, d) - point.position), 1e-14);
-}
-
 } // namespace
