@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <ostream>
 #include <string>
 #include <vector>
 

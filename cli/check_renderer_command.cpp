@@ -14,12 +14,14 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
+#include <thread>
 
 namespace cli {
 
@@ -58,12 +60,25 @@ public:
         wanted_ = wanted;
         line_->update(static_cast<double>(has));
     }
+    /// A line for each look at a scene's mistakes, of `total` batches.
+    void update_mistakes(const check::SceneCheck& scene, double done, double total)
+    {
+        if (&scene != scene_ || total != look_) {
+            line_.reset();
+            line_.emplace(scene.scene().name + ", mistakes of light transport", 0.0, total, quiet_);
+        }
+        scene_ = &scene;
+        look_ = total;
+        wanted_ = 0;
+        line_->update(done);
+    }
     void end() { line_.reset(); }
 
 private:
     bool quiet_;
     const check::SceneCheck* scene_ = nullptr;
     std::uint64_t wanted_ = 0;
+    double look_ = 0.0;
     std::optional<Progress> line_;
 };
 
@@ -95,6 +110,8 @@ check::RendererOptions renderer_options(const CheckRendererCommand& options)
     result.budget = options.budget;
     result.time_limit = options.timeout;
     result.stop = interrupt_requested;
+    result.mistakes = !options.no_mistakes;
+    result.threads = std::max(1U, std::thread::hardware_concurrency());
     return result;
 }
 
@@ -113,6 +130,9 @@ ExitStatus check_renderer_command(const CheckRendererCommand& options)
     RoundProgress progress(options.quiet);
     plan.progress = [&](const auto& scene, auto has, auto wanted) {
         progress.update(scene, has, wanted);
+    };
+    plan.mistakes_progress = [&](const auto& scene, double done, double total) {
+        progress.update_mistakes(scene, done, total);
     };
     std::optional<check::PictureFolder> folder;
     if (options.keep.empty())

@@ -24,8 +24,9 @@ struct CheckRendererCommand {
     double error = 0.5;     // percent
     double budget = 1800.0; // seconds
     double timeout = 300.0; // seconds
-    std::string keep;       // folder
-    std::string report;     // .html
+    bool no_mistakes = false;
+    std::string keep;   // folder
+    std::string report; // .html
     bool json = false;
     bool quiet = false;
 };

@@ -54,6 +54,8 @@ void add_check_renderer_options(CLI::App& command, CheckRendererCommand& options
     command.add_option("--timeout", options.timeout, "Seconds for one picture")
         ->check(CLI::Range(0.01, 1e9).description(""))
         ->capture_default_str();
+    command.add_flag("--no-mistakes", options.no_mistakes,
+                     "If scenes FAIL, do not look for mistakes of light transport");
     command.add_option("--keep", options.keep,
                        "Keep the pictures in this folder, and take those that are there");
     command.add_option("--report", options.report, "Page with verdicts and pictures: .html");

@@ -8,6 +8,7 @@
 #include "cli/renderer_for.h"
 #include "cli/scene_input.h"
 #include "explain/drawing.h"
+#include "explain/fast_text.h"
 #include "explain/json.h"
 #include "explain/page.h"
 #include "explain/search.h"
@@ -27,7 +28,17 @@ namespace {
 struct Picture {
     const ref::World& world;
     images::RenderOptions plan;
+    const explain::FastScene* fast; // null: the reference alone
 };
+
+std::string sample_text(const Picture& picture, const explain::Sample& sample, bool as_json)
+{
+    const ref::World& world = picture.world;
+    if (picture.fast == nullptr)
+        return as_json ? explain::json(world, sample) + "\n" : explain::describe(world, sample);
+    const explain::FastSample fast = picture.fast->sample(sample.integrator, sample.options, sample.id);
+    return as_json ? explain::json(world, sample, fast) + "\n" : explain::describe(world, sample, fast);
+}
 
 void print(const ExplainCommand& options, const Picture& picture, const ref::SampleId& id,
            const std::string& found)
@@ -38,10 +49,7 @@ void print(const ExplainCommand& options, const Picture& picture, const ref::Sam
         images::write_atomically(options.picture, explain::drawing(picture.world, sample));
     if (!options.report.empty())
         images::write_atomically(options.report, explain::page(picture.world, sample));
-    if (options.json)
-        std::cout << explain::json(picture.world, sample) << std::endl;
-    else
-        std::cout << found << describe(picture.world, sample) << std::flush;
+    std::cout << (options.json ? "" : found) << sample_text(picture, sample, options.json) << std::flush;
 }
 
 ExitStatus explain_first(const ExplainCommand& options, const Picture& picture)
@@ -102,7 +110,11 @@ ExitStatus explain_one(const ExplainCommand& options)
     if (!options.where.empty()) (void)explain::Condition(options.where);
     const scenes::Scene scene = load_scene(render.scene, render.frame, render.quiet);
     const ref::World world(scene, size.width, size.height, ref::Builder::sah_leaf);
-    const Picture picture{world, plan};
+    std::optional<explain::FastScene> fast;
+    if (render.device == "host") fast.emplace(scene, size.width, size.height, plan.roulette);
+    const Picture picture{world, plan, fast ? &*fast : nullptr};
+    if (fast && !render.quiet && !(options.picture.empty() && options.report.empty()))
+        std::cerr << "plumbline: --picture and --report show the sample of the reference\n";
     if (options.largest) return explain_largest(options, picture);
     if (!options.where.empty()) return explain_first(options, picture);
     const std::uint32_t pixel = pixel_of(options, size.width, size.height);

@@ -1,6 +1,7 @@
 // The options of `plumbline explain`. Those that choose the picture are those of `render`.
 
 #include "cli/explain_command.h"
+#include "cli/one_of.h"
 #include "cli/output_files.h"
 #include "cli/reference_options.h"
 #include "cli/scene_input.h"
@@ -34,6 +35,11 @@ void add_explain_options(CLI::App& command, ExplainCommand& options)
         ->check(CLI::Range(1u, 1024u).description(""))
         ->capture_default_str();
     command.add_option("--size", options.render.size, "Width x height of the picture in pixels")
+        ->capture_default_str();
+    command
+        .add_option("--device", options.render.device,
+                    "ref; or host: the sample of the fast path in floats, beside it")
+        ->check(one_of({"ref", "host"}))
         ->capture_default_str();
     add_estimator_options(command, options.render);
     add_experiment_options(command, options.render);

@@ -18,6 +18,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -117,6 +118,45 @@ std::size_t all_points(const std::vector<WalkedAxis>& walked)
     return count;
 }
 
+/// Writes the page and prints the results.
+void show_walk(const extremes::Json& found, const ExtremesCommand& options)
+{
+    if (!options.report.empty()) images::write_atomically(options.report, extremes::page(found));
+    std::cout << (options.json       ? found.dump() + "\n"
+                  : options.markdown ? extremes::markdown(found)
+                                     : extremes::table(found))
+              << std::flush;
+}
+
+/// The exit status, after the limits that do not hold are named on stderr.
+ExitStatus judge_walk(const std::vector<WalkedAxis>& walked)
+{
+    const std::vector<std::string> wrong = extremes::contradictions(walked);
+    for (const std::string& line : wrong)
+        std::cerr << "plumbline: a limit does not hold: " << line << '\n';
+    return wrong.empty() ? fine : check_failed;
+}
+
+/// Shows earlier results, of those of the chosen axes that they have. Origin and number of cases are
+/// those of the first file, and must be the same in the others.
+ExitStatus show_earlier_walk(const ExtremesCommand& options, std::vector<WalkedAxis> walked)
+{
+    std::optional<extremes::Description> description;
+    for (const std::string& file : options.from)
+        show_from(file, [&](const extremes::Json& json) {
+            if (!description) description = extremes::description_of(json);
+            extremes::restore(json, *description, walked, true);
+        });
+    for (WalkedAxis& axis : walked)
+        std::erase_if(axis.methods, [](const WalkedAxis::Of& of) { return of.points.empty(); });
+    std::erase_if(walked, [](const WalkedAxis& axis) { return axis.methods.empty(); });
+    if (walked.empty())
+        throw std::invalid_argument("--from " + options.from.front() +
+                                    ": it has no point of these axes and methods");
+    show_walk(extremes::results(*description, walked), options);
+    return judge_walk(walked);
+}
+
 ExitStatus extremes_command(const ExtremesCommand& options, const std::string& command)
 {
     check(options);
@@ -125,6 +165,7 @@ ExitStatus extremes_command(const ExtremesCommand& options, const std::string& c
         print_list(walked);
         return fine;
     }
+    if (!options.from.empty()) return show_earlier_walk(options, walked);
     catch_interrupts();
     extremes::Description description{PLUMBLINE_VERSION, command,      today(), processor_name(),
                                       options.cases,     options.seed, false};
@@ -172,17 +213,8 @@ ExitStatus extremes_command(const ExtremesCommand& options, const std::string& c
     }
     description.complete = !stopped;
     keep();
-    const extremes::Json found = extremes::results(description, walked);
-    if (!options.report.empty()) images::write_atomically(options.report, extremes::page(found));
-    std::cout << (options.json       ? found.dump() + "\n"
-                  : options.markdown ? extremes::markdown(found)
-                                     : extremes::table(found))
-              << std::flush;
-    if (stopped) return say_interrupted(options.output);
-    const std::vector<std::string> wrong = extremes::contradictions(walked);
-    for (const std::string& line : wrong)
-        std::cerr << "plumbline: a limit does not hold: " << line << '\n';
-    return wrong.empty() ? fine : check_failed;
+    show_walk(extremes::results(description, walked), options);
+    return stopped ? say_interrupted(options.output) : judge_walk(walked);
 }
 
 } // namespace

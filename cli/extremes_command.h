@@ -20,6 +20,7 @@ struct ExtremesCommand {
     std::string output;   // .json
     std::string report;   // .html
     bool resume = false;
+    std::vector<std::string> from; // .json: earlier results, to be shown without a walk
     bool json = false;
     bool markdown = false;
     bool quiet = false;

@@ -28,8 +28,15 @@ void add_extremes_options(CLI::App& command, ExtremesCommand& options)
     command.add_option("-o,--output", options.output, "Results: .json");
     command.add_option("--report", options.report, "Page for people, without other files: .html");
     command.add_flag("--resume", options.resume, "Go on with the points in the output");
+    command.add_option("--from", options.from, "Walk nothing: show the results in these .json of -o")
+        ->excludes("--resume")
+        ->excludes("--output")
+        ->excludes("--cases")
+        ->excludes("--seed");
     command.add_flag("--json", options.json, "Print the results as JSON and not as a table");
-    command.add_flag("--markdown", options.markdown, "Print the results as a part of docs/extremes.md")
+    command
+        .add_flag("--markdown", options.markdown,
+                  "Print the results as a part of docs/results/extremes.md")
         ->excludes("--json");
     command.add_flag("-q,--quiet", options.quiet, "No progress");
 }
@@ -40,6 +47,9 @@ void check(const ExtremesCommand& options)
     expect_ending(options.report, "--report", ".html");
     if (options.resume && options.output.empty())
         throw std::invalid_argument("--resume needs -o: it goes on with the results in that file");
+    for (const std::string& from : options.from)
+        expect_different_files({{"-o", options.output}, {"--report", options.report}},
+                               {{"--from", from}});
     expect_different_files({{"-o", options.output}, {"--report", options.report}});
     for (const std::string& path : {options.output, options.report})
         if (!path.empty()) images::check_place(path);

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "images/render_options.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>

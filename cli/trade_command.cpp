@@ -51,9 +51,24 @@ double part_done(const std::vector<trade::Measurements>& measured, std::size_t r
     return done;
 }
 
+/// Writes the page and prints the results.
+void show_study(const trade::Json& found, const TradeCommand& options)
+{
+    if (!options.report.empty()) images::write_atomically(options.report, trade::page(found));
+    std::cout << (options.json ? found.dump() + "\n" : trade::table(found)) << std::flush;
+}
+
 ExitStatus trade_command(const TradeCommand& options, const std::string& command)
 {
     check(options);
+    if (!options.from.empty()) {
+        show_from(options.from, [&](const trade::Json& json) {
+            if (json.at("format") != trade::results_format)
+                throw std::invalid_argument("its format is another one");
+            show_study(json, options);
+        });
+        return fine;
+    }
     catch_interrupts();
     const TradeStudy what = study_of(options);
     const trade::Truth truth(what.named.golden);
@@ -93,8 +108,7 @@ ExitStatus trade_command(const TradeCommand& options, const std::string& command
     }
     const trade::Json found = results();
     write(found);
-    if (!options.report.empty()) images::write_atomically(options.report, trade::page(found));
-    std::cout << (options.json ? found.dump() + "\n" : trade::table(found)) << std::flush;
+    show_study(found, options);
     return description.complete ? fine : say_interrupted(options.output);
 }
 

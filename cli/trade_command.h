@@ -11,7 +11,7 @@
 namespace cli {
 
 struct TradeCommand {
-    std::string scene;
+    std::string scene; // empty with `from`
     std::string size = "64x64";
     bool frame = false;
     double seconds = 60.0;
@@ -23,6 +23,7 @@ struct TradeCommand {
     std::string output;             // .json
     std::string report;             // .html
     bool resume = false;
+    std::string from;  // .json: earlier results, to be shown without a measurement
     std::string truth; // a golden; empty: the cached one
     double truth_seconds = 60.0;
     std::string cache; // folder

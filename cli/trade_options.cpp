@@ -14,7 +14,7 @@ namespace cli {
 
 void add_trade_options(CLI::App& command, TradeCommand& options)
 {
-    command.add_option("scene", options.scene, "COLLADA file")->required();
+    command.add_option("scene", options.scene, "COLLADA file; none with --from");
     command.add_option("--size", options.size, "Width x height in pixels")->capture_default_str();
     command.add_flag("--frame", options.frame, "Move the camera back until the whole scene is visible");
     command.add_option("--seconds", options.seconds, "Time for all measurements together, about")
@@ -35,6 +35,10 @@ void add_trade_options(CLI::App& command, TradeCommand& options)
     command.add_option("-o,--output", options.output, "Results: .json");
     command.add_option("--report", options.report, "Page for people, without other files: .html");
     command.add_flag("--resume", options.resume, "Go on with the measurements in the output");
+    command.add_option("--from", options.from, "Measure nothing: show the results in this .json of -o")
+        ->excludes("scene")
+        ->excludes("--resume")
+        ->excludes("--output");
     command.add_option("--truth", options.truth, "Golden to compare with [a render kept in --cache]");
     command
         .add_option("--truth-seconds", options.truth_seconds, "Time to render the truth, the first time")
@@ -47,6 +51,7 @@ void add_trade_options(CLI::App& command, TradeCommand& options)
 
 void check(const TradeCommand& options)
 {
+    if (options.scene.empty() && options.from.empty()) throw std::invalid_argument("scene is required");
     if (options.scene == "-")
         throw std::invalid_argument("trade -: expected the name of a scene file, because it is read "
                                     "again by every process that measures memory");
@@ -55,8 +60,9 @@ void check(const TradeCommand& options)
     expect_ending(options.report, "--report", ".html");
     if (options.resume && options.output.empty())
         throw std::invalid_argument("--resume needs -o: it goes on with the results in that file");
-    expect_different_files({{"-o", options.output}, {"--report", options.report}},
-                           {{"the scene", options.scene}, {"--truth", options.truth}});
+    expect_different_files(
+        {{"-o", options.output}, {"--report", options.report}},
+        {{"the scene", options.scene}, {"--truth", options.truth}, {"--from", options.from}});
     for (const std::string& path : {options.output, options.report})
         if (!path.empty()) images::check_place(path);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 namespace explain {
@@ -25,7 +26,8 @@ constexpr const char* style =
     ".join{stroke:#009e73;stroke-width:1.2;fill:none}"
     ".blocked{stroke:#a3326b;stroke-width:1.2;stroke-dasharray:2 4;fill:none}"
     ".path{stroke:#000;stroke-width:3.2;fill:none;stroke-linejoin:round}"
-    "text{font:13px sans-serif;fill:#1d2129}text.vertex{paint-order:stroke;stroke:#fff;stroke-width:3px}"
+    "text{font:13px sans-serif;fill:#1d2129}"
+    "text.vertex{font-size:16px;paint-order:stroke;stroke:#fff;stroke-width:3px}"
     "</style>\n";
 
 std::string coordinate(double x)
@@ -100,9 +102,10 @@ public:
             const std::string x = coordinate(line->first.x);
             const std::string y = coordinate(line->first.y);
             text_ += "<circle cx='" + x + "' cy='" + y + "' r='3.2' fill='" + color + "'/>\n";
-            text_ += "<text class='vertex' x='" + coordinate(line->first.x + 6.0) + "' y='" +
-                     coordinate(line->first.y - 5.0) + "'>" + letter + "<tspan dy='3' font-size='9'>" +
-                     std::to_string(i) + "</tspan></text>\n";
+            const glm::dvec2 name = place_of_name(line->first);
+            text_ += "<text class='vertex' x='" + coordinate(name.x) + "' y='" + coordinate(name.y) +
+                     "'>" + letter + "<tspan dy='4' font-size='12'>" + std::to_string(i) +
+                     "</tspan></text>\n";
         }
     }
 
@@ -123,9 +126,45 @@ private:
                      coordinate(line->second.x) + " " + coordinate(line->second.y);
     }
 
+    /// The left end of the base line of the name of the vertex at `at`: the first place around it where
+    /// the name is inside the panel and on no other name, or else the first of all.
+    glm::dvec2 place_of_name(const glm::dvec2& at)
+    {
+        constexpr double width = 18.0; // of a name, and its height
+        constexpr double height = 16.0;
+        // Beside the vertex, and a line further up or down.
+        constexpr std::array<glm::dvec2, 12> places = {{{6.0, -6.0},
+                                                        {6.0, 16.0},
+                                                        {-22.0, -6.0},
+                                                        {-22.0, 16.0},
+                                                        {14.0, 5.0},
+                                                        {-30.0, 5.0},
+                                                        {6.0, -23.0},
+                                                        {6.0, 33.0},
+                                                        {-22.0, -23.0},
+                                                        {-22.0, 33.0},
+                                                        {25.0, -6.0},
+                                                        {25.0, 16.0}}};
+        glm::dvec2 chosen = at + places[0];
+        for (const glm::dvec2& place : places) {
+            const glm::dvec2 name = at + place;
+            const bool inside = name.x >= 0.0 && name.x + width <= view_.width && name.y >= height &&
+                                name.y + 4.0 <= view_.height;
+            const bool is_free = std::ranges::none_of(names_, [&](const glm::dvec2& other) {
+                return std::abs(other.x - name.x) < width && std::abs(other.y - name.y) < height;
+            });
+            if (!inside || !is_free) continue;
+            chosen = name;
+            break;
+        }
+        names_.push_back(chosen);
+        return chosen;
+    }
+
     const ref::World& world_;
     const View& view_;
     std::string text_;
+    std::vector<glm::dvec2> names_; // of vertices: where they are
 };
 
 bool is_whole(const Strategy& strategy)

@@ -128,9 +128,49 @@ Json of(const ref::World& world, const Sample& sample, const Strategy& strategy)
     return json;
 }
 
-} // namespace
+Json of(const ref::World& world, const std::vector<FastVertex>& walk)
+{
+    Json vertices = Json::array();
+    for (const FastVertex& vertex : walk) {
+        Json json = {{"on", describe(world.scene, vertex)}};
+        const bool far = vertex.kind == ref::Vertex::Kind::infinity;
+        json[far ? "towards" : "position"] = of(far ? vertex.towards : vertex.position);
+        if (vertex.kind == ref::Vertex::Kind::surface) {
+            json["normal"] = of(vertex.normal);
+            json["primitive"] = vertex.primitive;
+        }
+        json["alpha"] = of(vertex.alpha);
+        json["pdf_solid_angle"] = of(vertex.pdf_solid_angle);
+        json["pdf_area"] = of(vertex.pdf_area);
+        json["probability"] = of(vertex.probability);
+        if (vertex.bounce)
+            json["bounce"] = {{"delta", vertex.bounce->delta},
+                              {"pdf_fwd", vertex.bounce->pdf_fwd},
+                              {"pdf_rev", vertex.bounce->pdf_rev},
+                              {"survival", vertex.bounce->survival}};
+        vertices.push_back(json);
+    }
+    return {{"vertices", vertices}};
+}
 
-std::string json(const ref::World& world, const Sample& sample)
+Json of(const ref::World& world, const FastSample& fast)
+{
+    Json strategies = Json::array();
+    for (const FastContribution& made : fast.made)
+        strategies.push_back({{"s", made.s},
+                              {"t", made.t},
+                              {"value", of(Vec3(made.value))},
+                              {"weight", made.weight},
+                              {"contribution", of(Vec3(made.contribution()))},
+                              {"pixel", of_pixel(made.pixel, world)},
+                              {"dropped", made.is_dropped()}});
+    return {{"eye_walk", of(world, fast.eye)},
+            {"light_walk", of(world, fast.light)},
+            {"strategies", strategies},
+            {"own", of(Vec3(fast.own))}};
+}
+
+Json of(const ref::World& world, const Sample& sample)
 {
     const ref::PathOptions& options = sample.options;
     Json draws = Json::array();
@@ -138,24 +178,42 @@ std::string json(const ref::World& world, const Sample& sample)
     Json strategies = Json::array();
     for (const Strategy& strategy : sample.strategies) strategies.push_back(of(world, sample, strategy));
     const bool limited = options.max_edges != images::unlimited_edges;
-    const Json json = {{"scene", world.scene.name},
-                       {"scene_hash", world.scene.hash},
-                       {"unit", world.scene.unit},
-                       {"size", {world.camera.width(), world.camera.height()}},
-                       {"pixel", of_pixel(sample.id.pixel, world)},
-                       {"sample", sample.id.sample},
-                       {"seed", options.seed},
-                       {"integrator", name_of(sample.integrator)},
-                       {"heuristic", name_of(options.heuristic)},
-                       {"max_edges", limited ? Json(options.max_edges) : Json(nullptr)},
-                       {"roulette", options.roulette},
-                       {"roulette_from", options.roulette_from},
-                       {"random_numbers", draws},
-                       {"eye_walk", of(world, sample.eye)},
-                       {"light_walk", of(world, sample.light)},
-                       {"strategies", strategies},
-                       {"own", of(sample.own)}};
+    return {{"scene", world.scene.name},
+            {"scene_hash", world.scene.hash},
+            {"unit", world.scene.unit},
+            {"size", {world.camera.width(), world.camera.height()}},
+            {"pixel", of_pixel(sample.id.pixel, world)},
+            {"sample", sample.id.sample},
+            {"seed", options.seed},
+            {"integrator", name_of(sample.integrator)},
+            {"heuristic", name_of(options.heuristic)},
+            {"max_edges", limited ? Json(options.max_edges) : Json(nullptr)},
+            {"roulette", options.roulette},
+            {"roulette_from", options.roulette_from},
+            {"random_numbers", draws},
+            {"eye_walk", of(world, sample.eye)},
+            {"light_walk", of(world, sample.light)},
+            {"strategies", strategies},
+            {"own", of(sample.own)}};
+}
+
+std::string text_of(const Json& json)
+{
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+} // namespace
+
+std::string json(const ref::World& world, const Sample& sample)
+{
+    return text_of(of(world, sample));
+}
+
+std::string json(const ref::World& world, const Sample& sample, const FastSample& fast)
+{
+    Json both = of(world, sample);
+    both["host"] = of(world, fast);
+    return text_of(both);
 }
 
 } // namespace explain

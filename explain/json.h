@@ -2,7 +2,7 @@
 
 // A sample as JSON: all numbers with all their digits.
 
-#include "explain/sample.h"
+#include "explain/fast_sample.h"
 
 #include <string>
 
@@ -10,5 +10,8 @@ namespace explain {
 
 /// One JSON object; docs/explain.md describes its members.
 std::string json(const ref::World& world, const Sample& sample);
+
+/// The same with a further member `host`, the sample as the fast path computes it.
+std::string json(const ref::World& world, const Sample& sample, const FastSample& fast);
 
 } // namespace explain

@@ -1,24 +1,28 @@
-# plumbline_source_lines(HEADER NAMESPACE NAME=FILE|TEXT...): makes the header build/generated/HEADER. In it, each NAME is
-# "FILE:LINE" of the only line of FILE that contains TEXT. So what a page says of the source is true of the source that was
-# compiled: a line that moves is found again, and one that is gone or no longer the only one is an error.
+# plumbline_source_lines(HEADER NAMESPACE NAME=FILE:STEP...): makes the header build/generated/HEADER. In it, each NAME is
+# "FILE:LINE" of the only line of FILE that has the tag of STEP (docs/map.md), or, where there is no code on that line, of the
+# line below it. So what a page says of the source is true of the source that was compiled: a line that moves is found again, and
+# one that is gone or no longer the only one is an error.
 function(plumbline_source_lines header namespace)
     set(content "#pragma once\n#include <string_view>\nnamespace ${namespace} {\n")
     foreach(entry IN LISTS ARGN)
-        string(REGEX MATCH "^([a-z_]+)=([^|]+)[|](.+)$" entry "${entry}")
+        string(REGEX MATCH "^([a-z_]+)=([^:]+):(.+)$" entry "${entry}")
         set(name ${CMAKE_MATCH_1})
         set(file ${CMAKE_MATCH_2})
-        set(wanted "${CMAKE_MATCH_3}")
+        set(tag "map: ${CMAKE_MATCH_3}")
         set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
         file(READ ${PROJECT_SOURCE_DIR}/${file} text)
-        string(FIND "${text}" "${wanted}" first)
-        string(FIND "${text}" "${wanted}" last REVERSE)
+        string(FIND "${text}" "${tag}" first)
+        string(FIND "${text}" "${tag}" last REVERSE)
         if(first EQUAL -1 OR NOT first EQUAL last)
-            message(FATAL_ERROR "${file} must contain once, for explain/: ${wanted}")
+            message(FATAL_ERROR "${file} must contain once, for explain/: ${tag}")
         endif()
         string(SUBSTRING "${text}" 0 ${first} before)
         string(REGEX REPLACE "[^\n]" "" breaks "${before}")
         string(LENGTH "${breaks}" line)
         math(EXPR line "${line} + 1")
+        if(before MATCHES "\n *//[^\n]*$")
+            math(EXPR line "${line} + 1")
+        endif()
         string(APPEND content "inline constexpr std::string_view ${name} = \"${file}:${line}\";\n")
     endforeach()
     string(APPEND content "}\n")

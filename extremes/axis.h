@@ -64,7 +64,7 @@ struct Axis {
     std::vector<Limit> limits;   // of methods by their names, at most two of each: below and above
     int most_cases = 1'000'000;  // where a case is large: at each point no more than this
     bool shared_truth = false;   // methods that are visited together compute exact answers once
-    std::string derivation = {}; // of the bounds: a paragraph for docs/extremes.md
+    std::string derivation = {}; // of the bounds: a paragraph for docs/results/extremes.md
 };
 
 /// 10^from, ..., 10^to in equal steps of the exponent; both ends are included.

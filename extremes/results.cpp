@@ -28,15 +28,17 @@ Json json_of(const Point& point)
 Point point_from(const Json& json)
 {
     Point point;
+    // What is 0 or empty may be left out.
     json.at("parameter").get_to(point.parameter);
-    json.at("cases").get_to(point.cases);
-    json.at("errors").get_to(point.errors);
-    json.at("median").get_to(point.median);
-    json.at("largest").get_to(point.largest);
-    json.at("refusal").get_to(point.refusal);
-    json.at("notice").get_to(point.notice);
-    json.at("not_walked").get_to(point.not_walked);
-    for (const auto& [name, count] : json.at("failures").items()) {
+    point.cases = json.value("cases", point.cases);
+    point.errors = json.value("errors", point.errors);
+    point.median = json.value("median", point.median);
+    point.largest = json.value("largest", point.largest);
+    point.refusal = json.value("refusal", point.refusal);
+    point.notice = json.value("notice", point.notice);
+    point.not_walked = json.value("not_walked", point.not_walked);
+    const Json failures = json.value("failures", Json::object());
+    for (const auto& [name, count] : failures.items()) {
         const auto kind = failure_of(name);
         if (!kind) throw std::invalid_argument("it has an unknown failure, " + name);
         point.failures.at(static_cast<std::size_t>(*kind)) = count.get<std::uint64_t>();
@@ -138,11 +140,36 @@ std::vector<std::string> contradictions(const std::vector<WalkedAxis>& walked)
     return lines;
 }
 
-void restore(const Json& json, const Description& description, std::vector<WalkedAxis>& walked)
+namespace {
+
+void expect_format(const Json& json)
+{
+    if (json.at("format") != results_format) throw std::invalid_argument("its format is another one");
+}
+
+std::invalid_argument no_result(const nlohmann::json::exception& error)
+{
+    return std::invalid_argument(std::string("it is no result of this program: ") + error.what());
+}
+
+} // namespace
+
+Description description_of(const Json& json)
 {
     try {
-        if (json.at("format") != results_format)
-            throw std::invalid_argument("its format is another one");
+        expect_format(json);
+        return {json.at("program"), json.at("command"), json.at("date"),    json.at("processor"),
+                json.at("cases"),   json.at("seed"),    json.at("complete")};
+    } catch (const nlohmann::json::exception& error) {
+        throw no_result(error);
+    }
+}
+
+void restore(const Json& json, const Description& description, std::vector<WalkedAxis>& walked,
+             bool with_unwalked)
+{
+    try {
+        expect_format(json);
         const Json expected = {
             {"program", description.program}, {"cases", description.cases}, {"seed", description.seed}};
         for (const auto& [key, value] : expected.items())
@@ -157,14 +184,14 @@ void restore(const Json& json, const Description& description, std::vector<Walke
                         if (method.at("name") != of.method.name) continue;
                         for (const Json& point : method.at("points"))
                             if (Point read = point_from(point);
-                                read.cases > 0 && // else it may be possible now
+                                (read.cases > 0 || (with_unwalked && !read.not_walked.empty())) &&
                                 std::ranges::find(into.axis.values, read.parameter) !=
                                     into.axis.values.end())
                                 of.points.push_back(std::move(read));
                     }
             }
     } catch (const nlohmann::json::exception& error) {
-        throw std::invalid_argument(std::string("it is no result of this program: ") + error.what());
+        throw no_result(error);
     }
 }
 

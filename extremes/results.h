@@ -46,10 +46,16 @@ Json results(const Description& description, const std::vector<WalkedAxis>& walk
 /// The limits that points contradict, one line each: "distance, host: ...".
 std::vector<std::string> contradictions(const std::vector<WalkedAxis>& walked);
 
+/// Where and how the walk of earlier results was made. Throws std::invalid_argument, with the reason, if
+/// `json` is no such results.
+Description description_of(const Json& json);
+
 /// Fills in the points of earlier results. Throws std::invalid_argument, with the reason, if `json` is
 /// no such results, or if version, cases or seed differ. Axes, methods and parameters that `walked` does
-/// not have are left out.
-void restore(const Json& json, const Description& description, std::vector<WalkedAxis>& walked);
+/// not have are left out, and so are points that were not walked, unless they are to be shown: they may
+/// be possible now.
+void restore(const Json& json, const Description& description, std::vector<WalkedAxis>& walked,
+             bool with_unwalked = false);
 
 /// Errors, first failures and limits as a table in plain text.
 std::string table(const Json& results);
@@ -58,8 +64,8 @@ std::string table(const Json& results);
 /// points.
 std::string limits_in_markdown(const Json& results);
 
-/// The part of docs/extremes.md that the program writes: the table of limits, and a section for each
-/// axis with its picture (images/extremes_NAME.png), its limits, their derivation, and the first
+/// The part of docs/results/extremes.md that the program writes: the table of limits, and a section for
+/// each axis with its picture (../images/extremes_NAME.png), its limits, their derivation, and the first
 /// failures of all methods.
 std::string markdown(const Json& results);
 

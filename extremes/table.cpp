@@ -125,7 +125,7 @@ std::string section(const Json& axis)
                        axis.at("title").get<std::string>() + " (`" + axis_name + "`)\n\n" +
                        axis.at("about").get<std::string>() +
                        "\n\n![Errors and failures: " + axis.at("title").get<std::string>() +
-                       "](images/extremes_" + axis_name + ".png)\n\n";
+                       "](../images/extremes_" + axis_name + ".png)\n\n";
     for (const Json& limit : axis.at("limits"))
         text += "- **" + limit.at("method").get<std::string>() + "** is safe " +
                 safe_words(axis, limit) + ", because " + limit.at("because").get<std::string>() + "\n";

@@ -102,6 +102,19 @@ std::size_t count(const std::vector<Explanation>& explanations, const std::vecto
     return found;
 }
 
+/// All that make the picture of one of `named`, which are among them.
+std::vector<std::string> names_of(const std::vector<Explanation>& explanations,
+                                  const std::vector<Standing>& standings,
+                                  const std::vector<std::size_t>& named)
+{
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < explanations.size(); ++i) {
+        const std::size_t shown = standings[i].same_as.value_or(i);
+        if (std::ranges::find(named, shown) != named.end()) names.push_back(explanations[i].is);
+    }
+    return names;
+}
+
 std::string sentence(const std::vector<Explanation>& explanations,
                      const std::vector<Standing>& standings, const std::vector<std::size_t>& named,
                      const CompareOptions& options)
@@ -127,8 +140,8 @@ std::string sentence(const std::vector<Explanation>& explanations,
 
 } // namespace
 
-std::string explain(const Golden& golden, const std::vector<Image>& pictures, double samples,
-                    const MoreExplanations& more, const CompareOptions& options)
+FoundMistake find_mistake(const Golden& golden, const std::vector<Image>& pictures, double samples,
+                          const MoreExplanations& more, const CompareOptions& options)
 {
     constexpr double part_of_difference = 0.125;
     const double enough =
@@ -164,9 +177,16 @@ std::string explain(const Golden& golden, const std::vector<Image>& pictures, do
             if (standings[i].alive && last[i].fitted == fitted) named.push_back(i);
         if (named.empty()) continue;
         const bool all_fit = count(last, standings, fitted, &Standing::fits) == named.size();
-        return all_fit && named.size() <= most_named ? sentence(last, standings, named, options) : "";
+        if (!all_fit || named.size() > most_named) return {};
+        return {sentence(last, standings, named, options), names_of(last, standings, named), fitted};
     }
-    return "";
+    return {};
+}
+
+std::string explain(const Golden& golden, const std::vector<Image>& pictures, double samples,
+                    const MoreExplanations& more, const CompareOptions& options)
+{
+    return find_mistake(golden, pictures, samples, more, options).sentence;
 }
 
 } // namespace golden

@@ -30,7 +30,7 @@ struct Finding {
     Weight weight;
     std::size_t functional; // its number among the golden's functionals
     std::size_t channel;    // 0 red, 1 green, 2 blue
-    bool conclusive;        // false: too skewed for a t test, so its p is not used
+    bool conclusive;        // false: no t test is possible here, so its p is not used
     TestResult test;        // z > 0: the candidate is brighter
     double adjusted_p;      // Bonferroni over channels, families and the members of the family
     double ratio;           // candidate / golden, of the functional's values; NaN where the golden is 0
@@ -43,6 +43,9 @@ struct Finding {
     /// The adjusted p that must be below the certainty level for FAIL at once. It is adjusted_p, or
     /// larger for few pictures of which only few pixels show how large their noise is.
     double certain_p = 1.0;
+    /// The part of `detectable` that rare events may hide, which few pictures with far less noise than
+    /// the golden may lack (rare_events.h).
+    double hidden = 0.0;
 };
 
 /// "green of tile x 16..31, y 0..15 (matched)"

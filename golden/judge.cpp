@@ -62,13 +62,15 @@ void Judge::judge_by_means(Finding& finding, const Candidate& candidate, const M
 {
     const PixelNoise pixels = pixel_noise(candidate, finding.functional, finding.channel);
     const MeanEstimate estimate = moderated(pictures, pixels);
+    const double event = largest_unseen_event(golden_, finding, pictures, reference, largest);
     compare_means(finding, estimate, reference, mean_skewness(pictures, pixels, reference),
-                  pictures.count);
+                  pictures.count, event);
     const MeanEstimate expected = mean_estimate(reference);
-    const double least = least_p_of(finding, estimate, expected, candidate.film());
+    const double tolerance = options_.rounding * size_of(finding, expected.mean);
+    const double least =
+        std::max(least_p_of(finding, estimate, expected, candidate.film()),
+                 least_p_of_darkness(event, pictures.count, estimate, expected, tolerance));
     finding.test.p = std::max(finding.test.p, least);
-    if (may_lack_rare_events(pictures, reference, largest, options_.certainty_level))
-        finding.conclusive = false;
     finding.darker_by_means = reference.variance > 0.0 && finding.test.z < 0.0;
     finish(finding, estimate, expected);
     // Welch's degrees follow the variances that are found. That of few values is far too small in one of
@@ -156,20 +158,25 @@ double Judge::least_p_of(const Finding& finding, const MeanEstimate& estimate,
 }
 
 void Judge::compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
-                          double skewed, double pictures) const
+                          double skewed, double pictures, double largest_event) const
 {
     const double golden_skewed = std::abs(reference.skewness) / std::sqrt(reference.count);
-    finding.conclusive =
-        std::max(skewed, golden_skewed) <= options_.skewness && !lacks_rare_events(golden_, finding);
+    const bool golden_lacks_events = lacks_rare_events(golden_, finding);
+    finding.conclusive = std::max(skewed, golden_skewed) <= options_.skewness && !golden_lacks_events;
     const MeanEstimate expected = mean_estimate(reference);
     finding.test = welch(candidate, expected, options_.rounding * size_of(finding, expected.mean));
+    // Two-sided, as the level is, and only darkness can be the lack of events.
+    if (expected.mean > 0.0)
+        finding.hidden = hidden_light(largest_event, pictures, level_of(finding) / 2.0) / expected.mean;
     if (finding.conclusive && expected.mean > 0.0)
-        finding.detectable = detectable_difference(std::sqrt(candidate.variance + expected.variance),
+        finding.detectable =
+            finding.hidden + detectable_difference(std::sqrt(candidate.variance + expected.variance),
                                                    welch_degrees(candidate, expected), level_of(finding),
                                                    options_.power) /
-                             expected.mean;
+                                 expected.mean;
     if (expected.mean > 0.0 && finding.region.kind == RegionKind::whole)
-        finding.reach = reach_of(finding, candidate, expected, skewed, golden_skewed, pictures);
+        finding.reach =
+            reach_of(finding, candidate, expected, skewed, golden_skewed, pictures, golden_lacks_events);
 }
 
 double Judge::size_of(const Finding& finding, double mean) const
@@ -181,8 +188,8 @@ double Judge::size_of(const Finding& finding, double mean) const
 }
 
 Reach Judge::reach_of(const Finding& finding, const MeanEstimate& candidate,
-                      const MeanEstimate& expected, double skewed, double golden_skewed,
-                      double pictures) const
+                      const MeanEstimate& expected, double skewed, double golden_skewed, double pictures,
+                      bool golden_lacks_events) const
 {
     const double level = level_of(finding);
     // The smallest relative error that is detectable if the difference has standard error 1.
@@ -193,26 +200,32 @@ Reach Judge::reach_of(const Finding& finding, const MeanEstimate& candidate,
         return std::pow(options_.specification / unit(degrees), 2.0);
     };
     const double room = allowed(expected.degrees);
-    const bool too_skewed = golden_skewed > options_.skewness;
+    const bool not_usable = golden_lacks_events || golden_skewed > options_.skewness;
     Reach reach;
-    reach.limit = too_skewed ? without_end : std::sqrt(expected.variance) * unit(expected.degrees);
+    reach.limit = not_usable ? without_end : std::sqrt(expected.variance) * unit(expected.degrees);
     reach.golden =
         std::max(2.0 * expected.variance / room, std::pow(golden_skewed / options_.skewness, 2.0));
+    // The mean of n equal events has the skewness 1 / sqrt(n). One is known, in the pilot.
+    if (golden_lacks_events) reach.golden = std::max(reach.golden, std::pow(options_.skewness, -2.0));
     reach.candidate = without_end;
-    if (too_skewed || !(room > expected.variance)) return reach;
+    if (not_usable || !(room > expected.variance)) return reach;
     // With the number of batches B, variances fall as 1 / B and |skewness| / sqrt(B) as 1 / sqrt(B). The
-    // degrees of freedom grow with the number of pictures; those of one picture's pixels stay.
+    // degrees of freedom grow with the number of pictures; those of one picture's pixels stay. The light
+    // that may be hidden falls as 1 / B.
     const auto enough = [&](double factor) {
         const double degrees = method_ == Method::welch
                                    ? std::max(1.0, candidate.degrees + pictures * (factor - 1.0))
                                    : candidate.degrees;
         const MeanEstimate more{candidate.mean, candidate.variance / factor, degrees};
-        return more.variance + expected.variance <= allowed(welch_degrees(more, expected));
+        const double noise = std::sqrt(more.variance + expected.variance);
+        return noise * unit(welch_degrees(more, expected)) + finding.hidden / factor <=
+               options_.specification;
     };
     constexpr double smallest = 1e-12;
     constexpr double largest = 1e12;
     // Enough with the largest possible number of degrees: the search begins here.
-    double factor = std::max(smallest, candidate.variance / (room - expected.variance));
+    double factor = std::max({smallest, candidate.variance / (room - expected.variance),
+                              finding.hidden / options_.specification});
     while (factor < largest && !enough(factor)) factor *= 1.1;
     reach.candidate = std::max(factor, std::pow(skewed / options_.skewness, 2.0));
     return reach;

@@ -57,8 +57,9 @@ private:
     [[nodiscard]] double detectable_by_ranks(const Finding& finding,
                                              const std::vector<double>& reference, double count) const;
     [[nodiscard]] double level_of(const Finding& finding) const;
+    /// `largest_event`: as of largest_unseen_event in golden/rare_events.h.
     void compare_means(Finding& finding, const MeanEstimate& candidate, const Moments& reference,
-                       double skewed, double pictures) const;
+                       double skewed, double pictures, double largest_event = 0.0) const;
     /// As least_p of golden/rare_events.h.
     [[nodiscard]] double least_p_of(const Finding& finding, const MeanEstimate& estimate,
                                     const MeanEstimate& expected, const images::Film& film) const;
@@ -66,7 +67,7 @@ private:
     [[nodiscard]] double size_of(const Finding& finding, double mean) const;
     [[nodiscard]] Reach reach_of(const Finding& finding, const MeanEstimate& candidate,
                                  const MeanEstimate& expected, double skewed, double golden_skewed,
-                                 double pictures) const;
+                                 double pictures, bool golden_lacks_events) const;
     void finish(Finding& finding, const MeanEstimate& candidate, const MeanEstimate& reference) const;
 
     const Golden& golden_;

@@ -7,6 +7,13 @@
 
 namespace golden {
 
+namespace {
+
+/// An event of another estimator, beside the golden's.
+constexpr double times_as_large = 4.0;
+
+} // namespace
+
 bool lacks_rare_events(const Golden& golden, const Finding& finding)
 {
     constexpr double far_too_small = 0.1;
@@ -31,6 +38,47 @@ bool lacks_rare_events(const Golden& golden, const Finding& finding)
             without += weight * weight * std::max(0.0, squares - others) / std::max(1.0, after - 1.0);
         });
     return without < far_too_small * with_pilot;
+}
+
+double largest_unseen_event(const Moments& pictures, const Moments& reference, double largest)
+{
+    constexpr double far_less = 0.01; // variance
+    return pictures.variance < far_less * reference.variance
+               ? times_as_large * (largest - reference.mean)
+               : 0.0;
+}
+
+double largest_unseen_event(const Golden& golden, const Finding& finding, const Moments& pictures,
+                            const Moments& reference, double largest)
+{
+    const double of_functional = largest_unseen_event(pictures, reference, largest);
+    if (of_functional == 0.0) return 0.0;
+    const auto c = static_cast<int>(finding.channel);
+    const auto batches =
+        static_cast<double>(golden.functionals.pilot().batches + golden.reference.size());
+    double error = 0.0; // the largest of a pixel's share
+    for_each_pixel(golden.functionals, finding.functional, finding.channel,
+                   [&](std::size_t i, double weight) {
+                       error = std::max(error, weight * golden.standard_error.pixels[i][c]);
+                   });
+    return std::min(of_functional, times_as_large * error * std::sqrt(batches * (batches - 1.0)));
+}
+
+double least_p_of_darkness(double largest_event, double pictures, const MeanEstimate& candidate,
+                           const MeanEstimate& expected, double tolerance)
+{
+    const double missing = expected.mean - candidate.mean - tolerance;
+    if (!(largest_event > 0.0) || !(missing > 0.0)) return 0.0;
+    const double per_light = pictures / largest_event; // events in all pictures, per light that they add
+    const double variance = candidate.variance + expected.variance;
+    if (missing <= variance * per_light) return 0.0; // more likely by noise alone
+    const double chance = std::exp(per_light * (0.5 * variance * per_light - missing));
+    return std::min(1.0, 2.0 * chance);
+}
+
+double hidden_light(double largest_event, double pictures, double level)
+{
+    return -largest_event * std::log(level) / pictures;
 }
 
 QuietPixels quiet_pixels(const Golden& golden, const Finding& finding, const images::Film& film,

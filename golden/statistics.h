@@ -60,17 +60,6 @@ double welch_degrees(const MeanEstimate& a, const MeanEstimate& b);
 /// or 0.
 TestResult welch(const MeanEstimate& a, const MeanEstimate& b, double tolerance = 0.0);
 
-/// Whether `candidate`, of values >= 0, may be darker than `reference` only because none of its batches
-/// contains an event that is rare for it. Neither its variance nor its skewness shows such events then.
-/// True if both hold:
-/// - its standard deviation is less than a tenth of that of the reference, which contains the events;
-/// - events that all of its B batches lack with probability `level`, (1 - q)^B = level, can explain the
-///   missing light: each contributes missing / q, at most four times the distance of the `largest` value
-///   of the reference from its mean.
-/// Where the reference has little noise, missing light is therefore still found.
-bool may_lack_rare_events(const Moments& candidate, const Moments& reference, double largest,
-                          double level);
-
 struct Interval {
     double low = 0.0;
     double high = 0.0;

@@ -52,6 +52,21 @@ std::optional<std::size_t> least_sensitive_channel(const Comparison& comparison)
     return least_sensitive;
 }
 
+/// Why so little is detectable, if that is not just noise: a clause, or nothing.
+std::string say_hidden(const Comparison& comparison, std::size_t channel)
+{
+    const Finding* sharpest = nullptr;
+    for (const Finding& finding : comparison.findings)
+        if (finding.channel == channel && finding.region.kind == RegionKind::whole &&
+            finding.conclusive && !std::isnan(finding.detectable) &&
+            (sharpest == nullptr || finding.detectable < sharpest->detectable))
+            sharpest = &finding;
+    if (sharpest == nullptr || !(sharpest->hidden > 0.5 * sharpest->detectable)) return "";
+    return "the pictures have far less noise than the golden, and so few of them may lack bright "
+           "samples "
+           "that are rare in them; ";
+}
+
 } // namespace
 
 void summarise(Comparison& comparison)
@@ -121,7 +136,8 @@ void pass_or_inconclusive(Comparison& comparison, const CompareOptions& options,
         text += std::isinf(detectable) ? "no error of the whole picture" + where + " is detectable"
                                        : "only an error of " + say_percent(detectable) +
                                              " of the whole picture" + where + " would have been found";
-        text += " (required: " + say_percent(options.specification) + "): ";
+        text += " (required: " + say_percent(options.specification) +
+                "): " + say_hidden(comparison, *channel);
         give_reason(comparison, text + say_shortfall(comparison) + "." + remark);
         return;
     }

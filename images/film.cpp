@@ -35,6 +35,7 @@ void Film::add_batch(const Image& batch)
     for (std::size_t i = 0; i < batch.pixels.size(); ++i) {
         const Rgb from_old_mean = batch.pixels[i] - mean_.pixels[i];
         mean_.pixels[i] += from_old_mean / count;
+        // map: welford [Welford 1962]
         squares_.pixels[i] += from_old_mean * (batch.pixels[i] - mean_.pixels[i]);
     }
 }
@@ -47,6 +48,7 @@ Image Film::standard_error() const
         for (int channel = 0; channel < 3; ++channel)
             error.pixels[i][channel] =
                 batches_ < 2 ? std::numeric_limits<double>::infinity()
+                             // map: standard-error
                              : std::sqrt(squares_.pixels[i][channel] / (count * (count - 1.0)));
     return error;
 }

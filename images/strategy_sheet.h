@@ -1,6 +1,6 @@
 #pragma once
 
-// All strategies of bidirectional path tracing in one picture, as in [Veach 1997, sec. 10.3].
+// All strategies of bidirectional path tracing in one picture, as in [Veach 1997, ch. 10].
 
 #include "images/strategies.h"
 

@@ -1,5 +1,6 @@
 #include "trade/estimates.h"
 
+#include "golden/rare_events.h"
 #include "trade/rounds.h"
 
 #include <boost/math/distributions/chi_squared.hpp>
@@ -91,6 +92,7 @@ struct RegionTest {
     bool conclusive;
     golden::TestResult test;
     golden::MeanEstimate found, expected;
+    double event; // golden::largest_unseen_event
 };
 
 RegionTest test_region(const golden::Moments& found, const Region& region, const Levels& levels)
@@ -99,9 +101,12 @@ RegionTest test_region(const golden::Moments& found, const Region& region, const
     result.found = golden::mean_estimate(found);
     result.expected = golden::mean_estimate(region.truth);
     result.test = golden::welch(result.found, result.expected, levels.rounding * region.truth.mean);
-    result.conclusive =
-        !is_skewed(found, levels) && !is_skewed(region.truth, levels) &&
-        !golden::may_lack_rare_events(found, region.truth, region.largest, levels.missing);
+    result.event = golden::largest_unseen_event(found, region.truth, region.largest);
+    result.test.p =
+        std::max(result.test.p,
+                 golden::least_p_of_darkness(result.event, found.count, result.found, result.expected,
+                                             levels.rounding * region.truth.mean));
+    result.conclusive = !is_skewed(found, levels) && !is_skewed(region.truth, levels);
     return result;
 }
 
@@ -140,9 +145,11 @@ Bias bias_of(const std::vector<Round>& rounds, const Truth& truth, const Levels&
     }
     const double degrees = golden::welch_degrees(tests[0].found, tests[0].expected);
     const double error = std::sqrt(tests[0].found.variance + tests[0].expected.variance);
-    bias.detectable =
-        golden::detectable_difference(error * largest_deviation(degrees), degrees, level, levels.power) /
-        tests[0].expected.mean;
+    const double by_noise =
+        golden::detectable_difference(error * largest_deviation(degrees), degrees, level, levels.power);
+    const double hidden =
+        golden::hidden_light(tests[0].event, tests[0].found.degrees + 1.0, level / 2.0);
+    bias.detectable = (by_noise + hidden) / tests[0].expected.mean;
 
     std::size_t strongest = tests.size();
     for (std::size_t r = 0; r < tests.size(); ++r)

@@ -20,7 +20,6 @@ struct Levels {
     double power = 0.99;    // chance that a detectable bias is found
     double rounding = 2e-6; // relative difference that single precision explains
     double skewness = 0.15; // largest |skewness| / sqrt(batches) for which a t test is conclusive
-    double missing = 1e-3;  // see golden::may_lack_rare_events
 };
 
 enum class BiasVerdict { none_found, biased, undecided };

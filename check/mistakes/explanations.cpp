@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace check {
 
@@ -28,12 +30,39 @@ std::uint32_t samples_per_pixel(int width, int height, const ExplanationBudget& 
     return static_cast<std::uint32_t>((budget.batch_samples + pixels - 1) / pixels);
 }
 
+/// Those that `only` names, with the parts that they need.
+Mistakes chosen(Mistakes all, const std::optional<SomeMistakes>& only)
+{
+    if (!only) return all;
+    std::erase_if(all.mistakes, [&](const Mistake& mistake) {
+        return std::ranges::find(only->is, mistake.is) == only->is.end();
+    });
+    if (!only->roulette) all.roulettes.clear();
+    std::map<std::size_t, std::size_t> numbers; // of the parts, new by old
+    std::vector<PathFactor> parts;
+    const auto keep = [&](std::size_t& part) {
+        const auto [number, is_new] = numbers.try_emplace(part, parts.size());
+        if (is_new) parts.push_back(all.parts[part]);
+        part = number->second;
+    };
+    for (Mistake& mistake : all.mistakes)
+        for (PartOfMistake& adds : mistake.adds) keep(adds.part);
+    for (RouletteMistake& roulette : all.roulettes) {
+        for (PartOfMistake& adds : roulette.adds) keep(adds.part);
+        for (RouletteMistake::Decisions& decisions : roulette.decisions) keep(decisions.part);
+    }
+    all.parts = std::move(parts);
+    return all;
+}
+
 } // namespace
 
 SceneExplanations::SceneExplanations(const scenes::Scene& scene, int width, int height,
                                      ref::PathOptions options, unsigned threads,
-                                     const ExplanationBudget& budget)
-    : budget_(budget), world_(scene, width, height), mistakes_(usual_mistakes(scene, options.max_edges)),
+                                     const ExplanationBudget& budget,
+                                     const std::optional<SomeMistakes>& only)
+    : budget_(budget), world_(scene, width, height),
+      mistakes_(chosen(usual_mistakes(scene, options.max_edges), only)),
       pictures_(world_, with_one_edge_more(options), mistakes_.parts,
                 samples_per_pixel(width, height, budget), threads)
 {}

@@ -6,6 +6,8 @@
 #include "golden/explain.h"
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace check {
@@ -22,14 +24,25 @@ struct ExplanationBudget {
 /// Pictures that are larger than this need too much memory for a picture of each mistake.
 inline constexpr std::size_t most_explained_pixels = std::size_t{1} << 18;
 
+/// Some of the usual mistakes.
+struct SomeMistakes {
+    std::vector<std::string> is; // Mistake::is
+    bool roulette = false;       // roulette that is not compensated, wherever it is
+};
+
 /// The mistakes of usual_mistakes, with less noise after each call of `render`.
 class SceneExplanations {
 public:
-    /// `options`: those of the golden, with another seed. `scene` must outlive it. Throws
+    /// `options`: those of the golden, with another seed. `scene` must outlive it. `only`: the mistakes
+    /// of interest; by default all. Throws
     /// std::invalid_argument for pictures of more than most_explained_pixels and the errors of
     /// ref::World.
     SceneExplanations(const scenes::Scene& scene, int width, int height, ref::PathOptions options,
-                      unsigned threads, const ExplanationBudget& budget = {});
+                      unsigned threads, const ExplanationBudget& budget = {},
+                      const std::optional<SomeMistakes>& only = {});
+
+    /// Whether the scene can have none of the mistakes that `only` names. Nothing can be rendered then.
+    [[nodiscard]] bool empty() const { return mistakes_.parts.empty(); }
 
     /// Renders more. False if the budget is spent or `monitor` stopped it.
     bool render(const images::Monitor& monitor = {});

@@ -1,6 +1,7 @@
 #include "check/renderers/check_renderer.h"
 
 #include "check/renderers/common_cause.h"
+#include "check/renderers/common_mistake.h"
 #include "check/renderers/render_picture.h"
 #include "check/renderers/seeds.h"
 #include "check/shell_line.h"
@@ -48,6 +49,18 @@ public:
             if (!take_kept(scene, number)) render(scene, number);
         }
         scene.judge();
+    }
+
+    /// In what is left of the budget.
+    void find_mistake()
+    {
+        MistakeSearch search;
+        search.threads = options_.threads;
+        search.stop = [&] { return options_.stop() || seconds() >= options_.budget; }; // by any thread
+        search.progress = options_.mistakes_progress;
+        search.budget = options_.mistakes_budget;
+        find_common_mistake(check_, search);
+        check_.stopped = check_.stopped || options_.stop();
     }
 
 private:
@@ -169,6 +182,7 @@ RendererCheck check_renderer(const std::vector<SuiteScene>& scenes, const Render
         }
     }
     for (SceneCheck& scene : check.scenes) scene.finish();
+    if (options.mistakes && common_diagnosis(check).empty()) rounds.find_mistake();
     check.seconds = rounds.seconds();
     return check;
 }
@@ -176,7 +190,9 @@ RendererCheck check_renderer(const std::vector<SuiteScene>& scenes, const Render
 std::vector<std::string> in_common(const RendererCheck& check)
 {
     std::vector<std::string> sentences;
-    if (std::string diagnosis = common_diagnosis(check); !diagnosis.empty())
+    if (!check.mistake.empty())
+        sentences.push_back(check.mistake);
+    else if (std::string diagnosis = common_diagnosis(check); !diagnosis.empty())
         sentences.push_back(std::move(diagnosis));
     std::vector<std::string> causes = causes_of(check, {SceneVerdict::fail, SceneVerdict::no_picture});
     // Two mistakes at once: a crash in some scenes, and wrong pictures of others.

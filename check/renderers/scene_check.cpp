@@ -134,8 +134,7 @@ void SceneCheck::judge_dependent(const std::string& why)
 
 void SceneCheck::diagnose()
 {
-    const std::vector<images::Image> of =
-        dependent_.empty() ? pictures_ : std::vector<images::Image>{pictures_.front()};
+    const std::vector<images::Image> of = judged_pictures();
     for (const double error : {error_, error_of_diagnosis}) {
         const auto compared = [&](const std::vector<images::Image>& undone) {
             return judged(undone, error);
@@ -144,10 +143,27 @@ void SceneCheck::diagnose()
             golden::diagnose(golden_, *comparison_, of, static_cast<double>(options_.samples), compared);
         if (!diagnosis_.empty()) break;
     }
+    say_causes();
+}
+
+void SceneCheck::say_causes()
+{
     comparison_->diagnosis = diagnosis_;
     images::Metadata known;
     if (options_.limits_edges) known["max_edges"] = golden_.metadata.at("max_edges");
-    causes_ = golden::say_possible_causes(*comparison_, golden_, known, mean_of(of));
+    causes_ = golden::say_possible_causes(*comparison_, golden_, known, mean_of(judged_pictures()));
+}
+
+void SceneCheck::set_diagnosis(const std::string& sentence)
+{
+    diagnosis_ = sentence;
+    say_causes();
+}
+
+std::vector<images::Image> SceneCheck::judged_pictures() const
+{
+    if (dependent_.empty()) return pictures_;
+    return {pictures_.front()};
 }
 
 std::uint64_t SceneCheck::next() const

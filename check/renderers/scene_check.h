@@ -64,6 +64,13 @@ public:
     /// What is wrong with the pictures (golden/diagnosis.h); empty if that is not known.
     [[nodiscard]] const std::string& diagnosis() const { return diagnosis_; }
 
+    /// Sets another diagnosis of pictures that FAIL. After finish.
+    void set_diagnosis(const std::string& sentence);
+
+    /// The pictures that the verdict is about: all, or only the first if they are not independent.
+    [[nodiscard]] std::vector<images::Image> judged_pictures() const;
+    [[nodiscard]] std::uint64_t samples() const { return options_.samples; } // per picture
+
     [[nodiscard]] const SuiteScene& scene() const { return scene_; }
     [[nodiscard]] const golden::Golden& golden() const { return golden_; }
     [[nodiscard]] const std::vector<images::Image>& pictures() const { return pictures_; }
@@ -82,6 +89,7 @@ private:
                                             double error) const;
     void judge_dependent(const std::string& why);
     void diagnose();
+    void say_causes();
     [[nodiscard]] std::uint64_t next() const;
 
     SuiteScene scene_;

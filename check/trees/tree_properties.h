@@ -5,6 +5,7 @@
 #include "check/trees/check_tree.h"
 
 #include <functional>
+#include <utility>
 
 namespace check {
 

@@ -248,6 +248,7 @@ private:
         const std::vector<Rgb> own = sums_.read(pixels_);
         for (std::size_t i = 0; i < pixels_; ++i)
             batch.mean.pixels[i] =
+                // map: splat
                 (images::Rgb(own[i]) + batch.mean.pixels[i]) / static_cast<double>(options_.batch_size);
         if (options_.strategies == images::StrategyPictures::none) return batch;
         for (int k = 1; k <= options_.max_edges; ++k)

@@ -48,7 +48,7 @@ Camera camera_of(const scenes::Scene& scene, const Placement& place, int width, 
 
 /// The needs of a scene with these requirements, apart from coincident surfaces, of which they tell
 /// nothing. Coarser than they are where a distinction costs a kernel more than it saves
-/// (docs/cuda-bdpt.md has the measurements).
+/// (docs/results/cuda-bdpt.md has the measurements).
 Needs needs_of(const scenes::Requirements& required);
 
 /// The number of vertices of a light walk that memory is needed for. No walk is longer than `max_edges`

@@ -54,7 +54,7 @@ inline Material material_of(const scenes::Material& source, bool roulette)
     // Below 1 even on a perfect mirror: every walk ends. Up to 0.999 the throughput does not grow. A
     // surface that absorbs nothing has less, because the longest walk takes memory
     // (most_light_vertices).
-    const double survival = albedo < 1.0 ? std::min(0.999, albedo) : 0.95;
+    const double survival = albedo < 1.0 ? std::min(0.999, albedo) : 0.95; // map: roulette
     result.survival = roulette ? static_cast<float>(survival) : 1.0f;
     return result;
 }
@@ -100,6 +100,7 @@ HD F fresnel(const F& cos_i, const F& eta, F& cos_t)
     cos_t = select(total, F(0.0f), square_root(1.0f - sin2_t));
     const F parallel = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
     const F perpendicular = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    // map: fresnel
     return select(total, F(1.0f), 0.5f * (parallel * parallel + perpendicular * perpendicular));
 }
 
@@ -116,12 +117,13 @@ HD BsdfSampleOf<F> sample_glass(const MaterialOf<F>& glass, const Vec3Of<F>& wo,
     const F reflected = fresnel(magnitude_of(wo.z), eta, cos_t);
     const F density = reflected * eta_i * eta_i * magnitude_of(wo.z);
     // Radiance is squeezed into a smaller solid angle on the denser side; power is not.
-    const F scale = carried == Transport::radiance ? eta * eta : F(1.0f);
+    const F scale = carried == Transport::radiance ? eta * eta : F(1.0f); // map: eta-squared
     const F refracted = 1.0f - reflected;
-    return select(u_lobe < reflected,
+    return select(u_lobe < reflected, // map: bsdf-glass
                   BsdfSampleOf<F>{Vec3Of<F>(-wo.x, -wo.y, wo.z), glass.color, density, density},
-                  BsdfSampleOf<F>{glm::normalize(Vec3Of<F>(-eta * wo.x, -eta * wo.y,
+                  BsdfSampleOf<F>{glm::normalize(Vec3Of<F>(-eta * wo.x, -eta * wo.y, // map: refraction
                                                            select(outside, -cos_t, cos_t))),
+                                  // map: delta-lobe
                                   scale * glass.transmittance, refracted * eta_t * eta_t * cos_t,
                                   refracted * eta_i * eta_i * magnitude_of(wo.z)});
 }
@@ -144,6 +146,7 @@ HD BsdfSampleOf<F> sample_bsdf(const MaterialOf<F>& material, const Vec3Of<F>& w
     if constexpr (specular) {
         if (const MaskOf<F> here = material.kind == MaterialKind::mirror; any(here))
             sample = select(here,
+                            // map: bsdf-mirror
                             BsdfSampleOf<F>{Vec3Of<F>(-wo.x, -wo.y, wo.z), material.color,
                                             magnitude_of(wo.z), magnitude_of(wo.z)},
                             sample);

@@ -19,6 +19,7 @@ struct Camera {
     template <class F>
     [[nodiscard]] HD Vec3Of<F> direction(const F& x, const F& y) const
     {
+        // map: camera-ray
         return glm::normalize((x - 0.5f * static_cast<float>(width)) * pixel_size * Vec3Of<F>(right) +
                               (0.5f * static_cast<float>(height) - y) * pixel_size * Vec3Of<F>(up) -
                               Vec3Of<F>(backward));
@@ -37,7 +38,7 @@ struct Camera {
     [[nodiscard]] HD MaskOf<F> project(const Vec3Of<F>& w, WordOf<F>& pixel) const
     {
         const F ahead = cosine(w);
-        const F scale = 1.0f / (ahead * pixel_size);
+        const F scale = 1.0f / (ahead * pixel_size); // map: camera-projection
         const F x = 0.5f * static_cast<float>(width) + glm::dot(w, Vec3Of<F>(right)) * scale;
         const F y = 0.5f * static_cast<float>(height) - glm::dot(w, Vec3Of<F>(up)) * scale;
         const MaskOf<F> inside = ahead > 0.0f && x >= 0.0f && x < static_cast<float>(width) &&
@@ -52,7 +53,7 @@ struct Camera {
     template <class F>
     [[nodiscard]] HD F pdf_solid_angle(const F& cosine_w) const
     {
-        return 1.0f / (film_area * cosine_w * cosine_w * cosine_w);
+        return 1.0f / (film_area * cosine_w * cosine_w * cosine_w); // map: camera-density
     }
 };
 

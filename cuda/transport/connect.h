@@ -90,7 +90,7 @@ HD void emission_hit(const PathOptions& options, const Emitter& emitter, int t, 
                      float pdf_fwd, float pdf_rev_direction, bool previous_joinable,
                      const RunningSums& sums, Sink& sink)
 {
-    sink.add(0, t, alpha * emitter.emitted,
+    sink.add(0, t, alpha * emitter.emitted, // map: emission-hit
              weight_of_emission_hit<needs, integrator, float>(
                  options, emitter, t, pdf_fwd, pdf_rev_direction, previous_joinable, sums));
 }
@@ -104,7 +104,7 @@ HD MaskOf<F> next_event_candidate(const SceneView<needs>& scene, const PathOptio
 {
     const IncidentLightOf<F> light = sample_incident(scene, z.point.position, u, active);
     const F cosine = glm::dot(z.facing, light.wi);
-    candidate.value = z.alpha * cosine * light.alpha;
+    candidate.value = z.alpha * cosine * light.alpha; // map: next-event
     active = active && cosine > 0.0f && !is_black(candidate.value);
     if (none(active)) return active;
     const EmitterOf<F>& emitter = at(scene.emitters, light.emitter);
@@ -177,7 +177,7 @@ HD MaskOf<F> light_image_candidate(const SceneView<needs>& scene, const PathOpti
     // density.
     const F pdf_rev_area =
         to_area(scene.camera.pdf_solid_angle(scene.camera.cosine(-w)), cosine, inverse_distance2);
-    candidate.value = alpha * pdf_rev_area;
+    candidate.value = alpha * pdf_rev_area; // map: light-image, importance
     candidate.weight =
         integrator == Integrator::light
             ? F(1.0f)
@@ -218,8 +218,9 @@ HD MaskOf<F> inner_connection_candidate(const SceneView<needs>& scene, const Pat
     const F cosine_z = glm::dot(z.facing, d) * to_unit;
     const F cosine_y = -glm::dot(y.facing, d) * to_unit;
     active = active && cosine_z > 0.0f && cosine_y > 0.0f;
-    const F geometry = cosine_z * cosine_y * inverse_distance2; // G [Veach 1997, sec. 8.1]
-    candidate.value = z.alpha * geometry * y.alpha;
+    // map: geometric-term [Veach 1997, sec. 8.1]
+    const F geometry = cosine_z * cosine_y * inverse_distance2; // G
+    candidate.value = z.alpha * geometry * y.alpha;             // map: inner-connection
     active = active && !is_black(candidate.value);
     if (none(active)) return active;
     const F clearance = y.clearance + clearance_per_length * distance2 * to_unit;

@@ -28,10 +28,12 @@ HD void emission_of_surface(const SceneView<needs>& scene, const EmitterOf<F>& e
     const Vec3Of<F> w_local = sample_cosine_hemisphere(direction[0], direction[1]);
     const Vec3Of<F> w = glm::normalize(FrameOf<F>(emission.end.normal).to_world(w_local));
     emission.ray = {leave_surface(emission.end, w), F(std::numeric_limits<float>::infinity()), w};
+    // map: density-y1
     emission.pdf_direction = greater(F(0.0f), glm::dot(emission.end.normal, w)) * inverse_pi;
     // L cos / (p_A cos / pi); none where another emitter covers this one
     emission.alpha =
         select(sees_first(scene, emission.end, w, active),
+               // map: emission-surface
                emitter.emitted * (pi * emitter.area / emitter.probability), Vec3Of<F>(0.0f));
 }
 

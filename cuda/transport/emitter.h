@@ -55,6 +55,7 @@ HD SurfacePointOf<F> sample_surface(const SceneView<needs>& scene, const Emitter
         if (any(sphere))
             point =
                 select(sphere,
+                       // map: emission-sphere
                        sphere_point<needs, F>(scene, select(sphere, emitter.index, WordOf<F>(triangles)),
                                               sample_sphere(u1, u2)),
                        point);
@@ -66,6 +67,7 @@ HD SurfacePointOf<F> sample_surface(const SceneView<needs>& scene, const Emitter
 template <Needs needs, class F>
 HD F pdf_emission_position(const EmitterOf<F>& emitter)
 {
+    // map: density-y0
     const F per_area = select(emitter.area > 0.0f, emitter.probability / emitter.area, F(0.0f));
     if constexpr (!needs.other_lights) return per_area;
     return select(is_surface<needs>(emitter), per_area,
@@ -78,7 +80,7 @@ HD F pdf_emission_position(const EmitterOf<F>& emitter)
 template <Needs needs>
 HD float pdf_area_disc(const SceneView<needs>& scene)
 {
-    return inverse_pi / (scene.radius * scene.radius);
+    return inverse_pi / (scene.radius * scene.radius); // map: density-y1
 }
 
 /// Light that may reach a point `from`, with the densities that the weights need.

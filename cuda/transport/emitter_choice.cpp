@@ -33,7 +33,7 @@ std::vector<float> summed_probabilities(const std::vector<double>& powers)
     double share = 0;
     for (const double power : powers) {
         if (power > 0) {
-            share += (power / largest / total + alike) / 2;
+            share += (power / largest / total + alike) / 2; // map: emitter-choice
             steps = ++found + std::llround(to_share * share);
         }
         sums.push_back(static_cast<float>(std::ldexp(static_cast<double>(steps), -24)));

@@ -198,7 +198,7 @@ HD inline float versine(const Vec3& a, const Vec3& b)
 HD inline float spot_falloff(const Light& spot, float versine)
 {
     if (spot.exponent == 0.0f) return 1.0f;
-    return versine < 1.0f ? std::exp(spot.exponent * std::log1p(-versine)) : 0.0f;
+    return versine < 1.0f ? std::exp(spot.exponent * std::log1p(-versine)) : 0.0f; // map: emission-spot
 }
 
 /// A direction of a source: the falloff there, and the density with which a light walk takes it.
@@ -232,8 +232,8 @@ HD inline Vec3 sample_source_direction(const Emitter& emitter, const Light& ligh
                                        SourceDirection& result)
 {
     result = {1.0f, pdf_solid_angle_sphere};
-    if (emitter.kind != EmitterKind::spot) return sample_sphere(u1, u2);
-    const float off_axis = u1 * light.versine_cutoff; // 1 - cos(theta)
+    if (emitter.kind != EmitterKind::spot) return sample_sphere(u1, u2); // map: emission-point
+    const float off_axis = u1 * light.versine_cutoff; // 1 - cos(theta); map: emission-spot
     Vec3 w_local(0.0f, 0.0f, 1.0f - off_axis);
     on_circle(std::sqrt(off_axis * (2.0f - off_axis)), u2, w_local.x, w_local.y);
     // The falloff of the angle as drawn: the direction may round out of the cone, and no power may be
@@ -247,6 +247,7 @@ HD inline Vec3 sample_source_direction(const Emitter& emitter, const Light& ligh
 /// Draws the unit direction from the scene to the light.
 HD inline Vec3 sample_towards(const Emitter& emitter, const Light& light, float u1, float u2)
 {
+    // map: emission-directional, emission-environment
     return emitter.kind == EmitterKind::environment ? sample_sphere(u1, u2) : -light.direction;
 }
 

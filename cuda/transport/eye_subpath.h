@@ -15,12 +15,13 @@ HD LegOf<F> camera_leg(const SceneView<needs>& scene, const SampleIdOf<F>& id)
     const UniformsOf<F> u = uniforms(id, Event::camera);
     WordOf<F> column;
     const WordOf<F> row = divided(id.pixel, scene.camera.width, column);
+    // map: film-position
     const Vec3Of<F> direction = scene.camera.direction(to_float(column) + u[0], to_float(row) + u[1]);
     return {{leave_end<needs, F>(scene, scene.camera.eye, scene.eye_contacts, direction),
              F(std::numeric_limits<float>::infinity()), direction},
             Vec3Of<F>(scene.camera.eye),
             false,
-            scene.camera.pdf_solid_angle(scene.camera.cosine(direction)),
+            scene.camera.pdf_solid_angle(scene.camera.cosine(direction)), // map: density-z1
             F(0.0f)};
 }
 
@@ -32,7 +33,7 @@ HD EyeVertexOf<F> eye_vertex(Heuristic heuristic, const WalkVertexOf<F>& v)
     EyeVertexOf<F> z{v.n + 1,
                      v.point,
                      v.facing,
-                     v.alpha * v.material.color * F(inverse_pi),
+                     v.alpha * v.material.color * F(inverse_pi), // map: bsdf-lambertian
                      chance_of(v.material, v.n) * inverse_pi,
                      v.pdf_area,
                      {}};
@@ -52,6 +53,7 @@ HD void eye_subpath(const SceneView<needs>& scene, const PathOptions& options, c
         options.max_edges + 1,
         [&](const WalkVertex& v) {
             show_vertex(sink, Transport::radiance, v);
+            // map: emitted-radiance
             if (v.emitter != no_emitter && glm::dot(v.point.normal, v.wo) > 0.0f)
                 emission_hit<needs, integrator>(options, scene.emitters[v.emitter], v.n + 1, v.alpha,
                                                 v.pdf_area, v.pdf_rev_solid_angle(), v.previous_joinable,

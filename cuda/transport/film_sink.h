@@ -76,7 +76,7 @@ public:
     HD void splat(std::uint32_t pixel, int s, const Rgb& value, float weight)
     {
         if (drop(pixel, s, 1, value, weight)) return;
-        target_.splats.add(pixel, weight * value);
+        target_.splats.add(pixel, weight * value); // map: splat
         if (!target_.layers.empty())
             target_.splats.add(place(static_cast<std::uint32_t>(s), pixel),
                                target_.weighted ? weight * value : value);

@@ -22,10 +22,11 @@ using images::Heuristic;
 constexpr float largest_sum = 1e30f;
 
 /// A quotient of densities, to the exponent of the heuristic: 1, or 2 for the power heuristic
-/// [Veach 1997, secs. 9.2.2 and 9.2.4]. At most largest_sum.
+/// [Veach 1997, sec. 9.2]. At most largest_sum.
 template <class F>
 HD F raised(Heuristic heuristic, const F& quotient)
 {
+    // map: power
     return lesser(heuristic == Heuristic::power ? quotient * quotient : quotient, F(largest_sum));
 }
 
@@ -57,10 +58,10 @@ public:
         // The factor of B_{n-1} in (4): pdf_rev / pdf_fwd of v_{n-1}, without and with roulette.
         const F spared = raised(heuristic, pdf_rev_solid_angle * geometry_over_pdf_);
         const F not_spared = spared * raised(heuristic, survival);
-        const F c = select(joinable, F(1.0f), F(0.0f));
-        for (int m = versions - 1; m > 0; --m) // (4); [Georgiev 2012, eqs. 34 and 35]
+        const F c = select(joinable, F(1.0f), F(0.0f)); // map: impossible
+        for (int m = versions - 1; m > 0; --m)          // (4); [Georgiev 2012, eqs. 34 and 35]
             brackets_[m] = lesser(c + spared * brackets_[m - 1], F(largest_sum));
-        brackets_[0] = lesser(c + not_spared * brackets_[0], F(largest_sum)); // (4)
+        brackets_[0] = lesser(c + not_spared * brackets_[0], F(largest_sum)); // (4); map: density-ratio
         geometry_over_pdf_ = geometry_over_pdf;
     }
 
@@ -111,7 +112,7 @@ HD F sum_of_others(Heuristic heuristic, const SubpathEndOf<F>& end)
 template <class F>
 HD F weight_of_sums(const F& S, const F& T)
 {
-    return 1.0f / (1.0f + S + T); // (5); [Georgiev 2012, eq. 37]
+    return 1.0f / (1.0f + S + T); // (5); [Georgiev 2012, eq. 37]; map: balance
 }
 
 /// s = 0, t >= 2: the eye walk hits an emitter at `z`. No light vertex, so S = 0.
@@ -161,6 +162,7 @@ template <class F>
 HD F path_emission_hit_weight(const MaskOf<F>& previous_joinable, const F& pdf_hit,
                               const F& pdf_next_event)
 {
+    // map: weight-of-hit
     return select(previous_joinable, balance_of_two(pdf_hit, pdf_next_event), F(1.0f)); // (6)
 }
 
@@ -168,7 +170,7 @@ HD F path_emission_hit_weight(const MaskOf<F>& previous_joinable, const F& pdf_h
 template <class F>
 HD F path_next_event_weight(const F& pdf_hit, const F& pdf_next_event)
 {
-    return balance_of_two(pdf_next_event, pdf_hit); // (6)
+    return balance_of_two(pdf_next_event, pdf_hit); // (6); map: weight-of-event
 }
 
 } // namespace fast

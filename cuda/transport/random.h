@@ -49,6 +49,7 @@ HD inline Uniforms uniforms(const SampleId& id, Event event, std::uint32_t j = 0
         {id.pixel, id.sample, static_cast<std::uint32_t>(event) << 24 | j, 0}};
     const philox4x32_ctr_t words = philox4x32(counter, key);
     Uniforms result{};
+    // map: random-numbers
     for (int i = 0; i < 4; ++i) result.u[i] = static_cast<float>(words.v[i] >> 8) * 0x1p-24f;
     return result;
 }

@@ -72,7 +72,7 @@ template <class F>
 HD Vec3Of<F> sample_cosine_hemisphere(const F& u1, const F& u2)
 {
     Vec3Of<F> w(F(0.0f), F(0.0f), square_root(1.0f - u1)); // u1 < 1, so w is never in the plane
-    on_circle(square_root(u1), u2, w.x, w.y);
+    on_circle(square_root(u1), u2, w.x, w.y);              // map: cosine-sampling
     return w;
 }
 
@@ -94,7 +94,7 @@ constexpr float pdf_solid_angle_sphere = inverse_pi / 4.0f;
 template <class F>
 HD F to_area(const F& pdf_solid_angle, const F& cosine, const F& inverse_distance2)
 {
-    return pdf_solid_angle * cosine * inverse_distance2;
+    return pdf_solid_angle * cosine * inverse_distance2; // map: area-conversion
 }
 
 /// The weights of the second and the third vertex for a uniform point of a triangle [Turk 1990].
@@ -102,7 +102,7 @@ template <class F>
 HD void sample_triangle(const F& u1, const F& u2, F& b1, F& b2)
 {
     const F root = square_root(u1);
-    b1 = root * (1.0f - u2);
+    b1 = root * (1.0f - u2); // map: emission-triangle
     b2 = root * u2;
 }
 

@@ -96,6 +96,7 @@ HD MetSurfaceOf<F> meet_surface(const SceneView<needs>& scene, const LegOf<F>& l
     met.cosine = magnitude_of(met.wo_local.z);
     const Vec3Of<F> d = met.point.position - leg.from;
     met.inverse_distance2 = select(leg.from_infinity, F(1.0f), 1.0f / glm::dot(d, d));
+    // map: density-light, density-eye
     met.pdf_area = to_area(leg.pdf_direction, met.cosine, met.inverse_distance2);
     return met;
 }
@@ -114,7 +115,7 @@ HD MaskOf<F> bounce(const MetSurfaceOf<F>& met, int n, const UniformsOf<F>& u, T
            false,
            sample.pdf_fwd * chance,
            magnitude_of(sample.wi_local.z) / met.pdf_area};
-    alpha *= sample.value / chance;
+    alpha *= sample.value / chance; // map: throughput
     pdf_rev = sample.pdf_rev;
     return u[3] < chance;
 }

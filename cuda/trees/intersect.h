@@ -44,6 +44,7 @@ public:
     [[nodiscard]] HD Vec3 shear(const Vec3& vertex) const
     {
         const Vec3 moved = permuted(vertex) - origin_;
+        // map: triangle-shear
         return {moved.x - shear_.x * moved.z, moved.y - shear_.y * moved.z, shear_.z * moved.z};
     }
     [[nodiscard]] HD int kx() const { return kx_; }
@@ -74,7 +75,7 @@ HD inline double edge_in_double(const Vec3& p, const Vec3& q)
 /// it can only make them equal [Woop et al. 2013, sec. 3.3].
 HD inline float edge_sign(const Vec3& p, const Vec3& q)
 {
-    const float difference = p.x * q.y - p.y * q.x;
+    const float difference = p.x * q.y - p.y * q.x; // map: triangle-edges
     return difference != 0 ? difference : static_cast<float>(edge_in_double(p, q));
 }
 
@@ -98,8 +99,8 @@ HD inline bool intersect_triangle(const ShearedRay& ray, const Triangle& triangl
     const double det = U + V + W; // all of one sign: 0 only if all are 0
     if (det == 0) return false;
     const double T = U * A.z + V * B.z + W * C.z;
-    if ((T < 0) != (det < 0)) return false; // behind the ray, like a surface that it has just left
-    const auto t = static_cast<float>(T / det);
+    if ((T < 0) != (det < 0)) return false;     // behind the ray, like a surface that it has just left
+    const auto t = static_cast<float>(T / det); // map: triangle-distance
     if (!(t > 0 && t < limit)) return false;
     hit.t = t;
     hit.b1 = static_cast<float>(V / det);

@@ -55,8 +55,8 @@ HD inline std::uint32_t cell_along_axis(float x, float lower, float upper, int b
     const bool is_huge = upper - lower > std::numeric_limits<float>::max();
     const float scale = is_huge ? 0.5f : 1.0f;
     const float position = (scale * x - scale * lower) / (scale * upper - scale * lower);
-    if (!(position > 0)) return 0; // also for 0 / 0
-    const float cell = position * cells;
+    if (!(position > 0)) return 0;       // also for 0 / 0
+    const float cell = position * cells; // map: morton-cell
     return static_cast<std::uint32_t>(cell < cells - 1 ? cell : cells - 1);
 }
 
@@ -67,7 +67,7 @@ HD Code morton_code(const Vec3& point, const Aabb& grid)
     const Code x = cell_along_axis(point.x, grid.lower.x, grid.upper.x, bits);
     const Code y = cell_along_axis(point.y, grid.lower.y, grid.upper.y, bits);
     const Code z = cell_along_axis(point.z, grid.lower.z, grid.upper.z, bits);
-    return spread_bits(x) << 2 | spread_bits(y) << 1 | spread_bits(z);
+    return spread_bits(x) << 2 | spread_bits(y) << 1 | spread_bits(z); // map: morton-code
 }
 
 /// Kernel over primitives: the code of the centroid, in the grid over all centroids.

@@ -29,7 +29,7 @@ struct BuildRadixTree {
         // The range extends towards the neighbour with the longer common prefix. The other neighbour
         // belongs to a sibling; its delta is a strict lower bound on the prefix that the keys of this
         // node share.
-        const int d = delta(i, i + 1) > delta(i, i - 1) ? 1 : -1;
+        const int d = delta(i, i + 1) > delta(i, i - 1) ? 1 : -1; // map: range-direction
         const int delta_min = delta(i, i - d);
 
         // An upper bound for the length, at most twice too long; then the bits of the length from the
@@ -38,15 +38,15 @@ struct BuildRadixTree {
         while (delta(i, i + l_max * d) > delta_min) l_max *= 2;
         std::int32_t l = 0;
         for (std::int32_t t = l_max / 2; t >= 1; t /= 2)
-            if (delta(i, i + (l + t) * d) > delta_min) l += t;
+            if (delta(i, i + (l + t) * d) > delta_min) l += t; // map: range-length
         const std::int32_t j = i + l * d;
 
         // The farthest key whose common prefix with key i is longer than that of key j.
         const int delta_node = delta(i, j);
         std::int32_t s = 0;
         for (std::int32_t t = l; t > 1;) {
-            t -= t / 2; // ceil(l / 2), ceil(l / 4), ..., 1
-            if (delta(i, i + (s + t) * d) > delta_node) s += t;
+            t -= t / 2;                                         // ceil(l / 2), ceil(l / 4), ..., 1
+            if (delta(i, i + (s + t) * d) > delta_node) s += t; // map: split
         }
         const std::int32_t gamma = i + s * d - (d < 0 ? 1 : 0);
 
@@ -65,8 +65,9 @@ private:
         if (j < 0 || j >= static_cast<std::int32_t>(codes.size())) return -1;
         const Code a = codes[static_cast<std::uint32_t>(i)];
         const Code b = codes[static_cast<std::uint32_t>(j)];
-        if (a != b) return std::countl_zero(static_cast<Code>(a ^ b));
+        if (a != b) return std::countl_zero(static_cast<Code>(a ^ b)); // map: delta
         // Equal codes: their indices decide, below every bit of the code [Karras 2012, sec. 4].
+        // map: delta-ties
         return std::numeric_limits<Code>::digits + std::countl_zero(static_cast<std::uint32_t>(i ^ j));
     }
 
@@ -74,7 +75,7 @@ private:
     HD void link(std::uint32_t parent, std::uint32_t side, std::int32_t at_split, bool to_leaf) const
     {
         const auto number = static_cast<std::uint32_t>(at_split);
-        nodes[parent].children[side] = to_leaf ? number | leaf_bit : number;
+        nodes[parent].children[side] = to_leaf ? number | leaf_bit : number; // map: children
         (to_leaf ? leaf_links[number] : nodes[number].link) = link_to(parent, side);
     }
 };

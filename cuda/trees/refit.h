@@ -33,7 +33,7 @@ struct RefitBounds {
             // Without this order the union below could read a box before it is written.
             if (arrive_at(node.arrivals) == 0) return;
             node.arrivals = 0; // no other walk comes here: ready for the next refit
-            box = unite(node.bounds[0], node.bounds[1]);
+            box = unite(node.bounds[0], node.bounds[1]); // map: refit
             link = node.link;
         }
     }

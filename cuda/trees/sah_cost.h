@@ -17,7 +17,7 @@ inline double sah_cost(std::span<const Node> nodes)
     const double root = half_area(unite(nodes[0].bounds[0], nodes[0].bounds[1]));
     double sum = 0;
     for (const Node& node : nodes)
-        for (const Aabb& box : node.bounds) sum += root > 0 ? half_area(box) / root : 1;
+        for (const Aabb& box : node.bounds) sum += root > 0 ? half_area(box) / root : 1; // map: sah-cost
     return 1 + sum;
 }
 

@@ -93,7 +93,7 @@ public:
             near = select(enter > near, enter, near);
             far = select(leave < far, leave, far);
         }
-        return near <= far;
+        return near <= far; // map: slabs
     }
 
 private:
@@ -125,7 +125,7 @@ public:
         near = larger(larger(enter(node, 0), enter(node, 1)), larger(enter(node, 2), all_lanes(0)));
         const Lanes far =
             smaller(smaller(leave(node, 0), leave(node, 1)), smaller(leave(node, 2), all_lanes(limit)));
-        return not_above(near, far);
+        return not_above(near, far); // map: slabs
     }
 
 private:

@@ -71,13 +71,13 @@ HD MaskOf<F> intersect_sphere(const RayOf<F>& ray, const SphereOf<F>& sphere, co
     const F b = -glm::dot(f, ray.direction);
     const Vec3Of<F> l = f + (b / a) * ray.direction;
     const F r2 = sphere.radius * sphere.radius;
-    const F discriminant = r2 - glm::dot(l, l);
+    const F discriminant = r2 - glm::dot(l, l); // map: sphere-discriminant
     const MaskOf<F> crosses = discriminant >= 0.0f;
     if (none(crosses)) return crosses;
     const F c = glm::dot(f, f) - r2;
     // Two separate roots: the product of their arguments would be the fourth power of a length.
     const F root = square_root(a) * square_root(discriminant);
-    const F q = select(b < 0.0f, b - root, b + root);
+    const F q = select(b < 0.0f, b - root, b + root); // map: sphere-distance
     const F t0 = c / q;
     const F t1 = q / a;
     const MaskOf<F> in_order = t0 < t1;

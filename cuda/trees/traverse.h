@@ -50,7 +50,7 @@ HD void traverse_with_children(const WideTreeView& tree, std::uint32_t next, con
         const int second = take_lane(entered);
         const std::uint64_t other = TraversalStack::element(node.children[second], near[second]);
         if (entered == 0) {
-            const std::uint64_t nearer = one < other ? one : other;
+            const std::uint64_t nearer = one < other ? one : other; // map: traversal
             stack.push(one ^ other ^ nearer);
             next = static_cast<std::uint32_t>(nearer);
             continue;
@@ -94,7 +94,7 @@ HD void traverse_with_masks(const WideTreeView& tree, std::uint32_t next, const 
             int nearest = -1;
             float entry = 0.0f;
             for (int c = 0; c < most_children; ++c)
-                if ((entered >> c & 1) != 0 && (nearest < 0 || near[c] < entry)) {
+                if ((entered >> c & 1) != 0 && (nearest < 0 || near[c] < entry)) { // map: traversal
                     nearest = c;
                     entry = near[c];
                 }

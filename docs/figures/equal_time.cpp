@@ -201,9 +201,9 @@ void print_head()
 
 int main(int argc, char** argv)
 {
-    figures::Program program(
-        "Prints the table of docs/bdpt.md on path, bidirectional and light tracing at equal CPU time",
-        "figure_equal_time");
+    figures::Program program("Prints the table of docs/results/bdpt.md on path, bidirectional and light "
+                             "tracing at equal CPU time",
+                             "figure_equal_time");
     figures::SceneFiles files;
     figures::RoundOptions options;
     program.add(files);

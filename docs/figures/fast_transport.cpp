@@ -152,7 +152,7 @@ void measure_needs(const scenes::Scene& scene, const figures::RoundOptions& opti
 int main(int argc, char** argv)
 {
     figures::Program program(
-        "Prints the tables of docs/cuda-bdpt.md on the speed of the fast path on the host",
+        "Prints the tables of docs/results/cuda-bdpt.md on the speed of the fast path on the host",
         "figure_fast_transport");
     figures::SceneFiles files;
     figures::RoundOptions options{.seconds = 0.7, .reference_seconds = 8.0};

@@ -96,7 +96,7 @@ Axis gap_axis()
         "of "
         "the second ray that is less than 133 u for triangles of radius 1. Exactly coincident surfaces "
         "are "
-        "decided by rule ([contacts.md](contacts.md)).";
+        "decided by rule ([contacts.md](../contacts.md)).";
     return axis;
 }
 

@@ -96,6 +96,7 @@ public:
         if (stopped_) return std::nullopt;
         for (std::size_t i = 0; i < sum_.pixels.size(); ++i)
             sum_.pixels[i] =
+                // map: splat
                 (sum_.pixels[i] + splat_sum_.pixels[i]) / static_cast<double>(options_.batch_size);
         return images::Batch{std::move(sum_), strategies_ ? strategies_->take() : images::Strategies{},
                              dropped_};
@@ -162,6 +163,7 @@ private:
     void add_splats_in_order()
     {
         for (; next_splats_ < tiles_.size() && waiting_[next_splats_]; ++next_splats_) {
+            // map: splat
             for (const Contribution& splat : *waiting_[next_splats_]) add(splat, splat_sum_);
             std::vector<Contribution>().swap(*waiting_[next_splats_]); // frees the memory
         }

@@ -42,7 +42,7 @@ inline double fresnel(double cos_i, double eta_i, double eta_t, double& cos_t)
     cos_t = std::sqrt(1.0 - sin_t * sin_t);
     const double parallel = (eta_t * cos_i - eta_i * cos_t) / (eta_t * cos_i + eta_i * cos_t);
     const double perpendicular = (eta_i * cos_i - eta_t * cos_t) / (eta_i * cos_i + eta_t * cos_t);
-    return (parallel * parallel + perpendicular * perpendicular) / 2.0;
+    return (parallel * parallel + perpendicular * perpendicular) / 2.0; // map: fresnel
 }
 
 /// The BSDF f(wo, wi) in sr^-1, without its delta lobes.
@@ -50,7 +50,7 @@ inline Rgb evaluate_bsdf(const scenes::Material& material, const Vec3& wo_local,
 {
     const auto* lambertian = std::get_if<scenes::Lambertian>(&material);
     if (lambertian == nullptr || wo_local.z * wi_local.z <= 0.0) return Rgb(0.0);
-    return lambertian->albedo * inverse_pi;
+    return lambertian->albedo * inverse_pi; // map: bsdf-lambertian
 }
 
 /// The density with which `sample_bsdf` picks `wi` given `wo`, per solid angle, without delta lobes.
@@ -73,7 +73,7 @@ inline BsdfSample sample_bsdf(const scenes::Lambertian& lambertian, const Vec3& 
 inline BsdfSample sample_bsdf(const scenes::Mirror& mirror, const Vec3& wo, const Uniforms& /*u*/,
                               Transport /*carried*/)
 {
-    return {Vec3(-wo.x, -wo.y, wo.z), mirror.reflectance, 1.0, 1.0, true};
+    return {Vec3(-wo.x, -wo.y, wo.z), mirror.reflectance, 1.0, 1.0, true}; // map: bsdf-mirror
 }
 
 /// Glass: reflects with the probability of Fresnel's reflectance, else refracts.
@@ -85,13 +85,13 @@ inline BsdfSample sample_bsdf(const scenes::Glass& glass, const Vec3& wo, const 
     const double eta_t = outside ? glass.ior : 1.0;
     double cos_t = 0.0;
     const double reflected = fresnel(std::abs(wo.z), eta_i, eta_t, cos_t);
-    if (u[2] < reflected)
+    if (u[2] < reflected) // map: bsdf-glass
         return {Vec3(-wo.x, -wo.y, wo.z), glass.reflectance, reflected, reflected, true};
 
     const double eta = eta_i / eta_t;
-    const Vec3 wi(-eta * wo.x, -eta * wo.y, outside ? -cos_t : cos_t);
-    // Radiance is squeezed into a smaller solid angle on the denser side; power is not
-    // [Veach 1997, sec. 5.2].
+    const Vec3 wi(-eta * wo.x, -eta * wo.y, outside ? -cos_t : cos_t); // map: refraction
+    // Radiance is squeezed into a smaller solid angle on the denser side; power is not.
+    // map: eta-squared [Veach 1997, sec. 5.2]
     const double scale = carried == Transport::radiance ? eta * eta : 1.0;
     return {glm::normalize(wi), glass.transmittance * scale, 1.0 - reflected, 1.0 - reflected, true};
 }
@@ -129,7 +129,7 @@ inline double density_of_delta_lobe(const scenes::Material& material, const Vec3
     double cos_t = 0.0;
     const double reflected = fresnel(std::abs(wo_local.z), eta_i, eta_t, cos_t);
     const bool is_reflection = wo_local.z * wi_local.z > 0.0;
-    return is_reflection ? reflected * eta_i * eta_i * std::abs(wi_local.z)
+    return is_reflection ? reflected * eta_i * eta_i * std::abs(wi_local.z) // map: delta-lobe
                          : (1.0 - reflected) * eta_t * eta_t * std::abs(wi_local.z);
 }
 
@@ -154,7 +154,7 @@ inline double survival_probability(const scenes::Material& material, int bounce,
         double operator()(const scenes::Emission& /*m*/) const { return 0.0; }
     } albedo;
     const double value = std::visit(albedo, material);
-    return value < 1.0 ? std::min(0.999, value) : 0.95;
+    return value < 1.0 ? std::min(0.999, value) : 0.95; // map: roulette
 }
 
 } // namespace ref

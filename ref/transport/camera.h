@@ -48,6 +48,7 @@ public:
     {
         const double x = (film.x - width_ / 2.0) * pixel_size_;
         const double y = (height_ / 2.0 - film.y) * pixel_size_;
+        // map: camera-ray
         return {camera_.eye, glm::normalize(x * camera_.right + y * camera_.up - camera_.backward)};
     }
 
@@ -56,6 +57,7 @@ public:
     {
         const double ahead = -glm::dot(w, camera_.backward);
         if (ahead <= 0.0) return std::nullopt;
+        // map: camera-projection
         const glm::dvec2 film(width_ / 2.0 + glm::dot(w, camera_.right) / ahead / pixel_size_,
                               height_ / 2.0 - glm::dot(w, camera_.up) / ahead / pixel_size_);
         const bool seen = film.x >= 0.0 && film.x < width_ && film.y >= 0.0 && film.y < height_;
@@ -68,13 +70,13 @@ public:
     /// W_e (sr^-1) towards a unit direction within the picture; see the top of the file.
     [[nodiscard]] double importance(const Vec3& w) const
     {
-        return 1.0 / (film_area() * std::pow(cosine(w), 4));
+        return 1.0 / (film_area() * std::pow(cosine(w), 4)); // map: importance [Veach 1997, sec. 8.2]
     }
 
     /// The density (sr^-1) with which eye walks over the whole film start in such a direction.
     [[nodiscard]] double pdf_solid_angle(const Vec3& w) const
     {
-        return 1.0 / (film_area() * std::pow(cosine(w), 3));
+        return 1.0 / (film_area() * std::pow(cosine(w), 3)); // map: camera-density
     }
 
 private:

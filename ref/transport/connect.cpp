@@ -47,7 +47,7 @@ std::optional<Contribution> emission_hit(const World& world, const PathOptions& 
     const Vertex& last = z.back();
     if (last.emitter == nullptr) return std::nullopt;
     return contribution(world, options, id.pixel, {}, z,
-                        last.alpha * emitted(world, last, z[z.size() - 2]));
+                        last.alpha * emitted(world, last, z[z.size() - 2])); // map: emission-hit
 }
 
 std::optional<Contribution> next_event(const World& world, const PathOptions& options,
@@ -63,6 +63,7 @@ std::optional<Contribution> next_event(const World& world, const PathOptions& op
     const Rgb f = evaluate_bsdf(world, y0, last, z[z.size() - 2]);
     if (f == Rgb(0.0) || !visible(world.geometry, last.point, *light)) return std::nullopt;
     return contribution(world, options, id.pixel, {&y0, 1}, z,
+                        // map: next-event
                         last.alpha * f * cosine(last, light->wi) * light->radiance / light->pdf);
 }
 
@@ -84,6 +85,7 @@ std::optional<Contribution> light_image(const World& world, const PathOptions& o
         static_cast<std::uint32_t>(film->y) * static_cast<std::uint32_t>(world.camera.width()) +
         static_cast<std::uint32_t>(film->x);
     return contribution(world, options, pixel, y, {&eye, 1},
+                        // map: light-image
                         last.alpha * scattered * geometric_term(last, eye) * world.camera.cosine(w) *
                             world.camera.importance(w));
 }
@@ -99,6 +101,7 @@ std::optional<Contribution> inner_connection(const World& world, const PathOptio
                   evaluate_bsdf(world, y_last, z_last, z[z.size() - 2]);
     if (f == Rgb(0.0) || !visible(world.geometry, y_last.point, z_last.point)) return std::nullopt;
     return contribution(world, options, id.pixel, y, z,
+                        // map: inner-connection
                         y_last.alpha * f * geometric_term(y_last, z_last) * z_last.alpha);
 }
 

@@ -37,6 +37,7 @@ std::optional<SampledEmission> sample_emission(const World& world, const Uniform
         // L cos / (p_A cos / pi)
         return SampledEmission{surface_vertex(world, point, alpha),
                                {leave_surface(point, w), w},
+                               // map: emission-surface
                                alpha * pi * emitted_radiance(world.scene, point, w)};
     }
     if (is_at_infinity(emitter->kind))
@@ -45,6 +46,7 @@ std::optional<SampledEmission> sample_emission(const World& world, const Uniform
             const Rgb alpha(1.0 / (choice * pdf_towards(emitter->kind)));
             return SampledEmission{infinity_vertex(*emitter, towards, alpha),
                                    ray_from_infinity(world, towards, direction[0], direction[1]),
+                                   // map: emission-directional, emission-environment
                                    alpha * emitted(light) * disc_area(world)};
         });
     return visit_source(world.scene, emitter->kind, emitter->index, [&](const auto& light) {
@@ -52,6 +54,7 @@ std::optional<SampledEmission> sample_emission(const World& world, const Uniform
         const double pdf = pdf_solid_angle_direction(light, w); // 0 where w rounds out of a cone
         return SampledEmission{source_vertex(*emitter, light.position, Rgb(1.0 / choice)),
                                {light.position, w, Ray{}.t_max, emitter->on},
+                               // map: emission-point, emission-spot
                                pdf > 0.0 ? intensity(light, w) / (choice * pdf) : Rgb(0.0)};
     });
 }
@@ -59,6 +62,7 @@ std::optional<SampledEmission> sample_emission(const World& world, const Uniform
 double pdf_emission_position(const Vertex& y0)
 {
     const Emitter& emitter = *y0.emitter;
+    // map: density-y0
     if (is_surface(emitter.kind)) return emitter.area > 0.0 ? emitter.probability / emitter.area : 0.0;
     return is_at_infinity(emitter.kind) ? emitter.probability * pdf_towards(emitter.kind)
                                         : emitter.probability;
@@ -67,7 +71,7 @@ double pdf_emission_position(const Vertex& y0)
 double pdf_area_emission_direction(const World& world, const Vertex& y0, const Vertex& y1)
 {
     const Vec3 w = direction(y0, y1);
-    if (y0.kind == Vertex::Kind::infinity) return cosine(y1, w) / disc_area(world);
+    if (y0.kind == Vertex::Kind::infinity) return cosine(y1, w) / disc_area(world); // map: density-y1
 
     const double pdf_solid_angle =
         y0.kind == Vertex::Kind::surface
@@ -75,7 +79,7 @@ double pdf_area_emission_direction(const World& world, const Vertex& y0, const V
             : visit_source(world.scene, y0.emitter->kind, y0.emitter->index,
                            [&](const auto& light) { return pdf_solid_angle_direction(light, w); });
     const Vec3 d = y1.point.position - y0.point.position;
-    return pdf_solid_angle * cosine(y1, w) / glm::dot(d, d);
+    return pdf_solid_angle * cosine(y1, w) / glm::dot(d, d); // map: density-y1
 }
 
 Rgb emitted(const World& world, const Vertex& y0, const Vertex& y1)

@@ -96,6 +96,7 @@ const Emitter* Emitters::environment() const
 Rgb emitted_radiance(const scenes::Scene& scene, const SurfacePoint& point, const Vec3& wo)
 {
     const Rgb* radiance = emission_of(scene, point.material);
+    // map: emitted-radiance
     return radiance != nullptr && glm::dot(point.normal, wo) > 0.0 ? *radiance : Rgb(0.0);
 }
 
@@ -103,7 +104,7 @@ SurfacePoint sample_surface(const Geometry& geometry, const Emitter& emitter, do
 {
     if (emitter.kind == EmitterKind::triangle)
         return triangle_point(geometry, emitter.index, sample_triangle(u1, u2));
-    return sphere_point(geometry, emitter.index, sample_sphere(u1, u2));
+    return sphere_point(geometry, emitter.index, sample_sphere(u1, u2)); // map: emission-sphere
 }
 
 std::optional<IncidentLight> sample_incident(const Emitters& emitters, const Vec3& from,

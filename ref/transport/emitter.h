@@ -91,7 +91,7 @@ inline double area_to_solid_angle(double pdf_area, const Vec3& from, const Vec3&
     const Vec3 d = point - from;
     const double distance2 = glm::dot(d, d);
     const double cosine = std::abs(glm::dot(normal, d)) / std::sqrt(distance2);
-    return cosine > 0.0 ? pdf_area * distance2 / cosine : 0.0;
+    return cosine > 0.0 ? pdf_area * distance2 / cosine : 0.0; // map: area-conversion
 }
 
 } // namespace ref

@@ -33,6 +33,7 @@ std::vector<double> choice_borders(std::span<const double> powers)
     for (const double power : powers) {
         if (power > 0.0) {
             ++rank;
+            // map: emitter-choice [Hesterberg 1995]
             sum += 0.5 * (power / largest / total) + 0.5 / count;
             // One cell for each, and the rest by share. The sum ends at 1 within rounding, far less
             // than half a cell.

@@ -43,7 +43,7 @@ inline Rgb intensity(const scenes::PointLight& light, const Vec3& /*w*/)
 
 inline Vec3 sample_direction(const scenes::PointLight& /*light*/, double u1, double u2)
 {
-    return sample_sphere(u1, u2);
+    return sample_sphere(u1, u2); // map: emission-point
 }
 
 inline double pdf_solid_angle_direction(const scenes::PointLight& /*light*/, const Vec3& /*w*/)
@@ -66,13 +66,14 @@ inline Rgb intensity(const scenes::SpotLight& light, const Vec3& w)
     const double cosine = glm::dot(light.direction, w);
     if (cosine <= light.cos_cutoff) return Rgb(0.0);
     if (light.exponent == 0.0) return light.intensity;
+    // map: emission-spot
     return cosine > 0.0 ? light.intensity * std::pow(cosine, light.exponent) : Rgb(0.0);
 }
 
 /// Uniform in the cone.
 inline Vec3 sample_direction(const scenes::SpotLight& light, double u1, double u2)
 {
-    const double z = 1.0 - u1 * (1.0 - light.cos_cutoff);
+    const double z = 1.0 - u1 * (1.0 - light.cos_cutoff); // map: emission-spot
     const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
     const double phi = 2.0 * pi * u2;
     return Frame(light.direction).to_world({radius * std::cos(phi), radius * std::sin(phi), z});
@@ -100,7 +101,7 @@ inline Rgb emitted(const scenes::DirectionalLight& light)
 
 inline Vec3 sample_towards(const scenes::DirectionalLight& light, double /*u1*/, double /*u2*/)
 {
-    return -light.direction;
+    return -light.direction; // map: emission-directional
 }
 
 /// The same radiance (W m^-2 sr^-1) from every direction.
@@ -120,7 +121,7 @@ inline Rgb emitted(const Environment& environment)
 
 inline Vec3 sample_towards(const Environment& /*environment*/, double u1, double u2)
 {
-    return sample_sphere(u1, u2);
+    return sample_sphere(u1, u2); // map: emission-environment
 }
 
 // ---- The three classes, and which kind is in which.

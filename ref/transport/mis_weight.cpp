@@ -23,7 +23,7 @@ double pdf_next(const World& world, const PathOptions& options, const Vertex& pr
                        survival_probability(material, bounce, options.roulette, options.roulette_from);
     if (next.kind == Vertex::Kind::infinity) return pdf;
     const Vec3 d = next.point.position - vertex.point.position;
-    return pdf * cosine(next, w) / glm::dot(d, d); // [Veach 1997, eq. 8.10]
+    return pdf * cosine(next, w) / glm::dot(d, d); // map: area-conversion [Veach 1997, eq. 8.10]
 }
 
 /// The density with which the ray of the camera samples x_{k-1}.
@@ -53,13 +53,15 @@ VertexDensities vertex_densities(const World& world, const PathOptions& options,
     // The light walk makes x_0 ... x_{k-1}; it cannot hit the pinhole x_k.
     p.light[0] = pdf_emission_position(*x[0]);
     if (k >= 2) p.light[1] = pdf_area_emission_direction(world, *x[0], *x[1]);
-    for (std::size_t i = 2; i < k; ++i) // from x_{i-1}, the walk's bounce number i - 1
+    for (std::size_t i = 2; i < k; ++i)
+        // from x_{i-1}, the walk's bounce number i - 1; map: density-light
         p.light[i] = pdf_next(world, options, *x[i - 2], *x[i - 1], static_cast<int>(i) - 1, *x[i]);
 
     // The eye walk makes x_k ... x_0. The pinhole has probability 1; a delta emitter cannot be hit.
     p.eye[k] = 1.0;
-    p.eye[k - 1] = pdf_camera(world, *x[k], *x[k - 1]);
-    for (std::size_t i = 0; i + 2 <= k; ++i) // from x_{i+1}, the walk's bounce number k - i - 1
+    p.eye[k - 1] = pdf_camera(world, *x[k], *x[k - 1]); // map: density-z1
+    for (std::size_t i = 0; i + 2 <= k; ++i)
+        // from x_{i+1}, the walk's bounce number k - i - 1; map: density-eye
         p.eye[i] = pdf_next(world, options, *x[i + 2], *x[i + 1], static_cast<int>(k - i) - 1, *x[i]);
     if (!can_be_hit(*x[0]->emitter)) p.eye[0] = 0.0;
     return p;
@@ -83,10 +85,10 @@ std::vector<double> density_quotients(const World& world, const Path& x, const V
     const std::size_t k = x.size() - 1;
     std::vector<double> quotients(k + 1, 1.0);
     for (std::size_t i = s; i > 0; --i)
-        quotients[i - 1] = quotients[i] * (p.eye[i - 1] / p.light[i - 1]);
+        quotients[i - 1] = quotients[i] * (p.eye[i - 1] / p.light[i - 1]); // map: density-ratio
     for (std::size_t i = s; i < k; ++i) quotients[i + 1] = quotients[i] * (p.light[i] / p.eye[i]);
     for (std::size_t i = 0; i <= k; ++i)
-        if (!is_possible(world, x, i)) quotients[i] = 0.0;
+        if (!is_possible(world, x, i)) quotients[i] = 0.0; // map: impossible
     return quotients;
 }
 
@@ -98,9 +100,9 @@ double mis_weight(const World& world, const PathOptions& options, const Path& x,
     for (std::size_t i = 0; i < x.size(); ++i) // no walk goes along a surface, to within rounding
         if ((i < s ? p.light[i] : p.eye[i]) == 0.0) return 0.0;
     double sum = 0.0;
-    for (const double quotient : density_quotients(world, x, p, s)) // [Veach 1997, sec. 9.2]
+    for (const double quotient : density_quotients(world, x, p, s)) // map: power [Veach 1997, sec. 9.2]
         sum += options.heuristic == Heuristic::balance ? quotient : quotient * quotient;
-    return 1.0 / sum;
+    return 1.0 / sum; // map: balance
 }
 
 } // namespace ref

@@ -10,7 +10,7 @@ namespace {
 /// `pdf_light`.
 double weight_of_hit(const EyeWalk& walk, double pdf_light)
 {
-    return walk.delta ? 1.0 : walk.pdf / (walk.pdf + pdf_light);
+    return walk.delta ? 1.0 : walk.pdf / (walk.pdf + pdf_light); // map: weight-of-hit
 }
 
 } // namespace
@@ -41,7 +41,7 @@ std::optional<Contribution> emission_of_edge(const World& world, const SampleId&
 {
     const Rgb emitted = emitted_radiance(world.scene, point, -walk.ray.direction);
     if (emitted == Rgb(0.0)) return std::nullopt;
-    return Contribution{id.pixel, 0, j + 1, walk.throughput * emitted,
+    return Contribution{id.pixel, 0, j + 1, walk.throughput * emitted, // map: emission-hit
                         weight_of_hit(walk, pdf_of_next_event(world, walk, &point))};
 }
 
@@ -69,7 +69,9 @@ std::optional<Contribution> next_event_of_vertex(const World& world, const PathO
     if (f == Rgb(0.0) || !visible(world.geometry, vertex.point, *light)) return std::nullopt;
 
     const double pdf_hit = light->delta ? 0.0 : pdf_of_bounce(options, j, vertex, wi_local);
+    // map: next-event
     const Rgb value = walk.throughput * f * std::abs(wi_local.z) * light->radiance / light->pdf;
+    // map: weight-of-event
     return Contribution{id.pixel, 1, j + 1, value, light->pdf / (light->pdf + pdf_hit)};
 }
 
@@ -85,7 +87,7 @@ std::optional<EyeWalk> next_edge(const PathOptions& options, const SampleId& id,
     const Vec3 wi = glm::normalize(vertex.frame.to_world(bounce.wi_local));
     return EyeWalk{{leave_surface(vertex.point, wi), wi},
                    vertex.point.position,
-                   walk.throughput * bounce.value / survival,
+                   walk.throughput * bounce.value / survival, // map: throughput
                    bounce.pdf_fwd * survival,
                    bounce.delta};
 }

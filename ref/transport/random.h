@@ -41,7 +41,7 @@ inline Uniforms uniforms(const SampleId& id, Event event, std::uint32_t j = 0)
         {id.pixel, id.sample, static_cast<std::uint32_t>(event) << 24 | j, 0}};
     const philox4x32_ctr_t words = philox4x32(counter, key);
     Uniforms result{};
-    for (std::size_t i = 0; i < 4; ++i) result[i] = (words.v[i] + 0.5) * 0x1p-32;
+    for (std::size_t i = 0; i < 4; ++i) result[i] = (words.v[i] + 0.5) * 0x1p-32; // map: random-numbers
     return result;
 }
 

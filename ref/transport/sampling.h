@@ -45,7 +45,7 @@ inline Vec3 sample_cosine_hemisphere(double u1, double u2)
 {
     const double radius = std::sqrt(u1);
     const double phi = 2.0 * pi * u2;
-    return {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(1.0 - u1)};
+    return {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(1.0 - u1)}; // map: cosine-sampling
 }
 
 inline double pdf_solid_angle_cosine_hemisphere(const Vec3& w_local)
@@ -68,7 +68,7 @@ inline constexpr double pdf_solid_angle_sphere = inverse_pi / 4.0;
 inline Vec3 sample_triangle(double u1, double u2)
 {
     const double root = std::sqrt(u1);
-    return {1.0 - root, root * (1.0 - u2), root * u2};
+    return {1.0 - root, root * (1.0 - u2), root * u2}; // map: emission-triangle [Turk 1990]
 }
 
 /// A uniform point of the unit disc.

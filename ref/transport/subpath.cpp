@@ -31,7 +31,7 @@ void walk(const World& world, const PathOptions& options, const SampleId& id, Tr
         if (u[3] >= survival) return;
         const Vec3 wi = glm::normalize(frame.to_world(sample.wi_local));
         ray = {leave_surface(point, wi), wi};
-        alpha *= sample.value / survival;
+        alpha *= sample.value / survival; // map: throughput
     }
 }
 

@@ -72,7 +72,7 @@ inline double geometric_term(const Vertex& a, const Vertex& b)
     if (a.kind == Vertex::Kind::infinity) return cosine(b, w);
     if (b.kind == Vertex::Kind::infinity) return cosine(a, w);
     const Vec3 d = b.point.position - a.point.position;
-    return cosine(a, w) * cosine(b, w) / glm::dot(d, d);
+    return cosine(a, w) * cosine(b, w) / glm::dot(d, d); // map: geometric-term [Veach 1997, sec. 8.1]
 }
 
 inline const scenes::Material& material_at(const World& world, const Vertex& vertex)

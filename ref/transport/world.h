@@ -47,7 +47,7 @@ inline Ray camera_ray(const World& world, const SampleId& id)
     const std::uint32_t column = id.pixel % width;
     const std::uint32_t row = id.pixel / width;
     const Uniforms u = uniforms(id, Event::camera);
-    Ray ray = world.camera.ray({column + u[0], row + u[1]});
+    Ray ray = world.camera.ray({column + u[0], row + u[1]}); // map: film-position
     ray.on = world.eye_on;
     return ray;
 }

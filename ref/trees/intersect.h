@@ -40,6 +40,7 @@ struct ShearedRay {
     {
         const Vec3 moved = vertex - origin;
         const double* const axis = glm::value_ptr(moved);
+        // map: triangle-shear
         return {axis[kx] - S.x * axis[kz], axis[ky] - S.y * axis[kz], S.z * axis[kz]};
     }
 
@@ -72,7 +73,7 @@ inline double accurate_edge_function(const Vec3& p, const Vec3& q)
 /// signs, so no ray passes between them.
 inline double edge_function(const Vec3& p, const Vec3& q)
 {
-    const double difference = p.x * q.y - p.y * q.x;
+    const double difference = p.x * q.y - p.y * q.x; // map: triangle-edges
     return difference != 0 ? difference : accurate_edge_function(p, q);
 }
 
@@ -117,7 +118,7 @@ inline std::optional<TriangleHit> intersect_triangle(const ShearedRay& ray,
     if (std::isfinite(ray.t_max) && !certainly_before(UVW, z, ray.t_max)) return std::nullopt;
 
     const Vec3 barycentric = UVW / det;
-    const double t = glm::dot(barycentric, z);
+    const double t = glm::dot(barycentric, z); // map: triangle-distance
     if (!(t > 0 && t < ray.t_max)) return std::nullopt;
     return TriangleHit{t, barycentric};
 }
@@ -134,11 +135,12 @@ inline std::optional<double> intersect_sphere(const Ray& ray, const Vec3& center
     const double a = glm::dot(ray.direction, ray.direction);
     const double b = -glm::dot(f, ray.direction);
     const Vec3 l = f + (b / a) * ray.direction;
-    const double discriminant = radius * radius - glm::dot(l, l);
+    const double discriminant = radius * radius - glm::dot(l, l); // map: sphere-discriminant
     if (!(discriminant >= 0)) return std::nullopt;
     const double c = glm::dot(f, f) - radius * radius;
     // Two separate roots: the product of their arguments would have four lengths as factors, and could
     // overflow.
+    // map: sphere-distance
     const double q = b + std::copysign(std::sqrt(a) * std::sqrt(discriminant), b);
     const double t0 = c / q;
     const double t1 = q / a;

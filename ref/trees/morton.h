@@ -43,6 +43,7 @@ inline std::uint32_t gather_bits(std::uint64_t x)
 /// The code of a cell: 30 bits for coordinates below 2^10, 63 for coordinates below 2^21.
 inline std::uint64_t morton_encode(const Cell& cell)
 {
+    // map: morton-code [Lauterbach 2009, sec. 3.1]
     return spread_bits(cell[0]) << 2 | spread_bits(cell[1]) << 1 | spread_bits(cell[2]);
 }
 
@@ -68,7 +69,7 @@ inline Cell cell_of(const Vec3& point, const Aabb& grid, int bits_per_axis)
     const auto coordinate = [&](double x, double lower, double upper) {
         // x = upper would give a cell number beyond the last one.
         return static_cast<std::uint32_t>(
-            std::min(relative_position(x, lower, upper) * cells, cells - 1));
+            std::min(relative_position(x, lower, upper) * cells, cells - 1)); // map: morton-cell
     };
     return {coordinate(point.x, grid.lower.x, grid.upper.x),
             coordinate(point.y, grid.lower.y, grid.upper.y),

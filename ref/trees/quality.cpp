@@ -26,11 +26,11 @@ Quality quality(const Tree& tree)
         if (tree.is_leaf(node)) {
             const std::uint32_t leaf = tree.leaf(node);
             const std::uint32_t count = tree.leaf_begin[leaf + 1] - tree.leaf_begin[leaf];
-            result.sah_cost += C_isect * count * share(bounds);
+            result.sah_cost += C_isect * count * share(bounds); // map: sah-cost
             result.depth = std::max(result.depth, depth);
             result.mean_leaf_depth += static_cast<double>(depth) / tree.leaf_count();
         } else {
-            result.sah_cost += C_trav * share(bounds);
+            result.sah_cost += C_trav * share(bounds); // map: sah-cost
             const auto [left, right] = tree.nodes[node].children;
             const Aabb both = intersection(tree.bounds[left], tree.bounds[right]);
             if (!is_empty(both)) result.overlap += share(both);

@@ -25,9 +25,10 @@ inline int delta(Codes codes, std::int64_t i, std::int64_t j)
     if (j < 0 || j >= std::ssize(codes)) return -1;
     const std::uint64_t a = codes[static_cast<std::size_t>(i)];
     const std::uint64_t b = codes[static_cast<std::size_t>(j)];
-    if (a != b) return std::countl_zero(a ^ b);
+    if (a != b) return std::countl_zero(a ^ b); // map: delta
     // The tie-break must be the same in every call [Karras 2012, sec. 4]. A single comparison without
     // it gives one node two parents and leaves another without any.
+    // map: delta-ties
     return 64 + std::countl_zero(static_cast<std::uint32_t>(i) ^ static_cast<std::uint32_t>(j));
 }
 
@@ -42,7 +43,7 @@ inline RadixNode radix_node(Codes codes, std::int64_t i)
     // The range extends from i towards the neighbour with the longer common prefix. The other
     // neighbour belongs to a sibling; its delta is a strict lower bound on the prefix that the keys of
     // this node share.
-    const int d = delta(codes, i, i + 1) > delta(codes, i, i - 1) ? 1 : -1;
+    const int d = delta(codes, i, i + 1) > delta(codes, i, i - 1) ? 1 : -1; // map: range-direction
     const int delta_min = delta(codes, i, i - d);
 
     // The length of the range: double l_max until it is beyond the end, then find the bits of l from
@@ -51,7 +52,7 @@ inline RadixNode radix_node(Codes codes, std::int64_t i)
     while (delta(codes, i, i + l_max * d) > delta_min) l_max *= 2;
     std::int64_t l = 0;
     for (std::int64_t t = l_max / 2; t >= 1; t /= 2)
-        if (delta(codes, i, i + (l + t) * d) > delta_min) l += t;
+        if (delta(codes, i, i + (l + t) * d) > delta_min) l += t; // map: range-length
     const std::int64_t j = i + l * d;
 
     // The split: the farthest key whose common prefix with key i is longer than that of key j.
@@ -59,8 +60,8 @@ inline RadixNode radix_node(Codes codes, std::int64_t i)
     std::int64_t s = 0;
     std::int64_t t = l;
     do {
-        t = (t + 1) / 2; // rounded up: l / 2, l / 4, ..., 1
-        if (delta(codes, i, i + (s + t) * d) > delta_node) s += t;
+        t = (t + 1) / 2;                                           // rounded up: l / 2, l / 4, ..., 1
+        if (delta(codes, i, i + (s + t) * d) > delta_node) s += t; // map: split
     } while (t > 1);
     const std::int64_t gamma = i + s * d + std::min(d, 0);
     return {std::min(i, j), std::max(i, j), gamma};
@@ -84,7 +85,7 @@ inline std::vector<Node> radix_tree(Codes codes)
     std::vector<Node> nodes(2 * n - 1);
     for (std::uint32_t i = 0; i + 1 < n; ++i) {
         const auto [first, last, gamma] = radix_node(codes, i);
-        nodes[i].children = {radix_child(first, gamma, gamma, n),
+        nodes[i].children = {radix_child(first, gamma, gamma, n), // map: children
                              radix_child(gamma + 1, last, gamma + 1, n)};
         for (const std::uint32_t child : nodes[i].children) nodes[child].parent = i;
     }

@@ -34,7 +34,7 @@ inline void refit(Tree& tree, std::span<const Aabb> primitive_bounds,
             node = tree.nodes[node].parent;
             if (node == no_node || arrivals[node]++ == 0) break;
             const auto [left, right] = tree.nodes[node].children;
-            tree.bounds[node] = unite(tree.bounds[left], tree.bounds[right]);
+            tree.bounds[node] = unite(tree.bounds[left], tree.bounds[right]); // map: refit
         }
     }
 }

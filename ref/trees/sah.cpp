@@ -59,6 +59,7 @@ Split best_split(std::span<const Aabb> boxes, const SortedLists& lists, std::siz
         Aabb left;
         for (std::size_t i = 1; i < count; ++i) {
             left = unite(left, boxes[list[i - 1]]);
+            // map: sah-split
             const Split split{axis, i, half_area(left) * static_cast<double>(i) + right_cost[i]};
             if (split.cost < best.cost || best.left == 0 ||
                 (split.cost == best.cost && imbalance(split, count) < imbalance(best, count)))

@@ -47,7 +47,7 @@ public:
             if (enter > near) near = enter;
             if (leave < far) far = leave;
         }
-        return near <= far ? near : std::numeric_limits<double>::infinity();
+        return near <= far ? near : std::numeric_limits<double>::infinity(); // map: slabs
     }
 
 private:
@@ -112,7 +112,7 @@ TraversalCounts traverse(const Tree& tree, const Ray& ray, Test test)
         const auto [left, right] = tree.nodes[entry.node].children;
         const Entry a{slabs.entry(tree.bounds[left]), left};
         const Entry b{slabs.entry(tree.bounds[right]), right};
-        push(a.t <= b.t ? b : a);
+        push(a.t <= b.t ? b : a); // map: traversal
         push(a.t <= b.t ? a : b);
     }
     return counts;

@@ -36,11 +36,52 @@ TEST(ExplainCommand, ExplainsTheSampleOfThePicture)
         }
 }
 
+/// The picture by the fast path, and beside the sample of it that of the reference.
+TEST(ExplainCommand, ExplainsTheSampleOfTheFastPath)
+{
+    const TemporaryFolder folder;
+    const std::string picture = (folder / "picture.pfm").string();
+    const Arguments options = {scene_file("cornell_glass"),
+                               "--size",
+                               "5x4",
+                               "--seed",
+                               "77",
+                               "--max-edges",
+                               "7",
+                               "--device",
+                               "host",
+                               "-q"};
+    const Outcome rendered =
+        run(Arguments{"render"} + options + Arguments{"--deterministic", "-o", picture, "-s", "1"});
+    ASSERT_EQ(rendered.status, 0) << rendered.err;
+    const images::Image image = images::read_pfm(picture);
+    for (const std::size_t pixel : {0u, 7u, 12u, 19u}) {
+        const std::string at = std::to_string(pixel % 5) + "," + std::to_string(pixel / 5);
+        const Outcome explained =
+            run(Arguments{"explain"} + options + Arguments{"--pixel", at, "--json"});
+        ASSERT_EQ(explained.status, 0) << explained.err;
+        const auto json = nlohmann::json::parse(explained.out);
+        for (int i = 0; i < 3; ++i)
+            EXPECT_EQ(json["host"]["own"][static_cast<std::size_t>(i)].get<double>(),
+                      image.pixels[pixel][i])
+                << at;
+        EXPECT_GE(json["host"]["eye_walk"]["vertices"].size(), 2u);
+        EXPECT_TRUE(json.contains("eye_walk")) << "of the reference";
+    }
+    const Outcome uniform =
+        run(Arguments{"explain"} + options +
+            Arguments{"--pixel", "1,1", "--integrator", "bdpt", "--heuristic", "uniform"});
+    EXPECT_EQ(uniform.status, 2);
+    EXPECT_NE(uniform.err.find("with --device host: it is for the reference"), std::string::npos);
+}
+
 TEST(ExplainCommand, FitsATerminal)
 {
-    for (const char* integrator : {"path", "bdpt", "light"}) {
-        const Outcome outcome = run({"explain", scene_file("all_emitters"), "--pixel", "100,90",
-                                     "--sample", "2", "--integrator", integrator, "--max-edges", "6"});
+    for (const auto& [integrator, device] : {std::pair("path", "ref"), std::pair("bdpt", "ref"),
+                                             std::pair("light", "ref"), std::pair("bdpt", "host")}) {
+        const Outcome outcome =
+            run({"explain", scene_file("all_emitters"), "--pixel", "100,90", "--sample", "2",
+                 "--integrator", integrator, "--max-edges", "6", "--device", device});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         EXPECT_NE(outcome.out.find("Adds to its pixel 100,90: "), std::string::npos) << outcome.out;
         std::istringstream lines(outcome.out);

@@ -64,6 +64,46 @@ TEST(ExtremesCommand, KeepsWhatItHasDoneAndGoesOn)
               nlohmann::json::parse(read_bytes(whole)).at("axes"));
 }
 
+/// A walk that is kept without what is 0 or empty, as in docs/results/.
+TEST(ExtremesCommand, ShowsEarlierResultsWithoutAWalk)
+{
+    TemporaryFolder folder;
+    const std::string json = (folder / "e.json").string();
+    const std::string first = (folder / "first.html").string();
+    const std::string second = (folder / "second.html").string();
+    const Outcome walked =
+        run({"extremes", "gap", "--cases", "3", "-o", json, "--report", first, "--markdown"});
+    auto kept = nlohmann::ordered_json::parse(read_bytes(json));
+    for (auto& method : kept.at("axes").at(0).at("methods")) {
+        method = {{"name", method.at("name")}, {"points", method.at("points")}};
+        for (auto& point : method.at("points"))
+            for (const char* key : {"errors", "median", "largest", "failures", "not_walked"})
+                if (point.at(key).empty() || point.at(key) == 0) point.erase(key);
+    }
+    write_bytes(json, kept.dump());
+    const Outcome shown = run({"extremes", "--from", json, "--report", second, "--markdown"});
+    EXPECT_EQ(shown.status, walked.status) << shown.err;
+    EXPECT_EQ(shown.out, walked.out);
+    EXPECT_NE(shown.out.find("(`gap`)"), std::string::npos);
+    EXPECT_EQ(read_bytes(second), read_bytes(first));
+
+    const std::string ior = (folder / "ior.json").string();
+    ASSERT_EQ(run({"extremes", "ior", "--methods", "ref", "--cases", "3", "-q", "-o", ior}).status, 0);
+    const Outcome both = run({"extremes", "--from", ior, json, "--markdown"});
+    for (const char* name : {"(`gap`)", "(`ior`)"})
+        EXPECT_NE(both.out.find(name), std::string::npos) << both.out;
+
+    const Outcome other = run({"extremes", "ior", "--from", json});
+    EXPECT_EQ(other.status, 2);
+    EXPECT_NE(other.err.find("it has no point of these axes"), std::string::npos) << other.err;
+    EXPECT_EQ(run({"extremes", "--from", json, "--resume"}).status, 2);
+    write_bytes(json, "{}");
+    const Outcome empty = run({"extremes", "--from", json});
+    EXPECT_EQ(empty.status, 2);
+    EXPECT_EQ(std::ranges::count(empty.err, '\n'), 1) << empty.err;
+    EXPECT_NE(empty.err.find("--from " + json + ": it is no result"), std::string::npos) << empty.err;
+}
+
 struct BadExtremes {
     const char* name;
     Arguments more;

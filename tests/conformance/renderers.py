@@ -24,10 +24,8 @@ UNLIMITED = 1 << 20
 OPEN = ("area_light_over_plane", "camera_in_glass", "directional_over_plane", "light_in_glass", "mirror_image", "near_occluder",
         "point_in_glass", "point_over_plane", "sphere_over_plane")
 
-# Per picture. The first two need more, because path tracing hardly finds their light. In the others the pictures
-# have far less noise than those of the golden; then compare cannot exclude that they lack rare events.
-SAMPLES = {"ceiling_lamp": 512, "door_ajar": 512, "directional_over_plane": 4, "integrating_sphere": 4,
-           "integrating_sphere_lamp": 4}
+# Per picture. These two need more, because path tracing hardly finds their light.
+SAMPLES = {"ceiling_lamp": 512, "door_ajar": 512}
 ORDINARY_SAMPLES = 64
 
 

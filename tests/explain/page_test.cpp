@@ -87,6 +87,36 @@ TEST(ExplainDrawing, ShowsBlockedAndFreeLinesDifferently)
     EXPECT_EQ(page_text::count(picture, "inf"), 0u);
 }
 
+// Names are about 18 wide and 16 high. The two walks of paths of at most 3 edges have 7 vertices.
+TEST(ExplainDrawing, NamesOfVerticesDoNotCoverEachOther)
+{
+    const Explained explained("cornell_diffuse");
+    std::size_t names = 0;
+    for (std::uint32_t i = 0; i < 20; ++i) {
+        const std::string picture =
+            drawing(explained.world, explained.sample(images::Integrator::bdpt, 31 * i, i, 3));
+        std::vector<std::pair<double, double>> places; // of the names in one panel
+        for (std::size_t at = picture.find("<svg x="); at != std::string::npos;) {
+            const std::string name = "<text class='vertex' x='";
+            const std::size_t next_panel = picture.find("<svg x=", at + 1);
+            at = picture.find(name, at + 1);
+            if (at > next_panel) {
+                places.clear();
+                at = next_panel;
+                continue;
+            }
+            if (at == std::string::npos) break;
+            const double x = std::stod(picture.substr(at + name.size()));
+            const double y = std::stod(picture.substr(picture.find("y='", at) + 3));
+            for (const auto& [other_x, other_y] : places)
+                EXPECT_TRUE(std::abs(x - other_x) >= 17.9 || std::abs(y - other_y) >= 15.9) << picture;
+            places.emplace_back(x, y);
+            ++names;
+        }
+    }
+    EXPECT_GT(names, 200u);
+}
+
 /// Runs in the page after its own scripts.
 const std::string explain_probe = R"probe(<script>
 const found = {};

@@ -1,4 +1,4 @@
-// The limits in docs/extremes.md are those of the program.
+// The limits in docs/results/extremes.md are those of the program.
 
 #include "extremes/results.h"
 #include "images/atomic_file.h"
@@ -15,9 +15,10 @@ TEST(ExtremesDocumentation, HasTheLimitsOfTheProgram)
         for (const Method& method : axis.methods) walked.back().methods.push_back({method, {}});
     }
     const Json json = results({}, walked);
-    const std::string text = images::read_file(std::string(PLUMBLINE_SOURCE_DIR) + "/docs/extremes.md");
+    const std::string text =
+        images::read_file(std::string(PLUMBLINE_SOURCE_DIR) + "/docs/results/extremes.md");
     EXPECT_NE(text.find(limits_in_markdown(json)), std::string::npos)
-        << "the table of limits is not this one (./run figures writes it):\n"
+        << "the table of limits is not this one (./run figures extremes_long writes it):\n"
         << limits_in_markdown(json);
     for (const Json& axis : json.at("axes")) {
         const std::string name = axis.at("name");

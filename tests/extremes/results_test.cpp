@@ -100,7 +100,7 @@ TEST(ExtremesResults, MarkdownHasARowForEachLimitAndASectionForEachAxis)
     EXPECT_EQ(text.find(limits_in_markdown(sample_results())), 0u);
     for (const char* part :
          {"| size | host | up to 10 | 1e-07 | leaked at 100 |\n", "## 1. Size of a scene (`size`)\n",
-          "](images/extremes_size.png)\n", "- **host** is safe up to 10, because a reason\n",
+          "](../images/extremes_size.png)\n", "- **host** is safe up to 10, because a reason\n",
           "## 2. Share of something (`share`)\n"})
         EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
 }

@@ -213,4 +213,68 @@ TEST_F(RareEventsOfAPilot, DoNotHideADifferenceElsewhere)
               golden::Verdict::fail);
 }
 
+/// A right estimator without noise, as a path tracer under a directional light is beside a golden by
+/// bidirectional path tracing. What it differs by is the noise of the golden.
+class PicturesWithoutNoise : public golden_test::SimulatedGolden {
+protected:
+    static golden::Comparison compared(std::size_t count, double factor)
+    {
+        static const Image truth = picture(8192, 77);
+        Image image = truth;
+        for (images::Rgb& pixel : image.pixels) pixel *= factor;
+        return golden::compare_pictures(reference(), std::vector<Image>(count, image),
+                                        golden_test::for_small_pictures());
+    }
+};
+
+TEST_F(PicturesWithoutNoise, PassIfTheyAreEnoughToContainRareEvents)
+{
+    for (const double within_noise : {0.9995, 1.0005}) {
+        const Comparison many = compared(80, within_noise);
+        EXPECT_EQ(many.verdict, Verdict::pass) << many.reason;
+        const Comparison few = compared(4, within_noise);
+        EXPECT_EQ(few.verdict, Verdict::inconclusive) << few.reason;
+        EXPECT_NE(few.reason.find("far less noise than the golden"), std::string::npos) << few.reason;
+        ASSERT_TRUE(few.shortfall);
+        EXPECT_GT(few.shortfall->candidate, 5.0) << few.reason;
+        const auto enough = static_cast<std::size_t>(1.2 * few.shortfall->candidate) + 1;
+        EXPECT_LT(enough, 80u);
+        EXPECT_EQ(compared(enough, within_noise).verdict, Verdict::pass);
+    }
+}
+
+TEST_F(PicturesWithoutNoise, FailIfLightIsMissingOrAdded)
+{
+    EXPECT_EQ(compared(80, 0.95).verdict, Verdict::fail);
+    EXPECT_EQ(compared(32, 1.02).verdict, Verdict::fail);
+    // Few of them may just lack bright samples, but are suspected.
+    const Comparison few = compared(3, 0.95);
+    EXPECT_EQ(few.verdict, Verdict::inconclusive) << few.reason;
+}
+
+/// A third of the golden's batches have an event in one pixel, which the pictures have not.
+TEST_F(RareEventsOfAPilot, OfTheGoldenMayBeLackingInFewPicturesAndNotInMany)
+{
+    golden::GoldenMaker maker(side, side, 32);
+    for (std::uint64_t batch = 0; batch < 256; ++batch)
+        maker.add_batch(grey(1.0, calibration::mix(batch) % 3 == 0 ? 3.0 : 0.0));
+    const golden::Golden golden = maker.golden({{"batch_size", "4"}});
+    const auto verdict = [&](std::size_t count) {
+        return golden::compare_pictures(golden, std::vector<Image>(count, grey(1.0, 0.0)));
+    };
+    // Each picture has a third of an event, which adds at most four times what the golden's adds.
+    EXPECT_GT(verdict(16).p, 0.05) << verdict(16).reason;
+    EXPECT_NE(verdict(64).verdict, Verdict::fail) << verdict(64).reason;
+    EXPECT_EQ(verdict(256).verdict, Verdict::fail) << verdict(256).reason;
+}
+
+/// Whatever limits it, the number that is said to be enough is larger than that of the pictures.
+TEST_F(RareEventsOfAPilot, NeverLessThanWhatIsThereIsAskedFor)
+{
+    const Comparison few =
+        golden::compare_pictures(only_in_pilot(1.8, 0.5), std::vector<Image>(4, grey(1.8, 0.0)));
+    EXPECT_EQ(few.verdict, Verdict::inconclusive) << few.reason;
+    EXPECT_NE(few.reason.find("a golden of about"), std::string::npos) << few.reason;
+}
+
 } // namespace

@@ -1,3 +1,4 @@
+#include "golden/rare_events.h"
 #include "golden/statistics.h"
 
 #include <gtest/gtest.h>
@@ -109,41 +110,53 @@ TEST(Moments, OfNothingOneValueOrEqualValuesAreFinite)
     EXPECT_EQ(golden::moments(Values{0.0, 1e-200}).skewness, 0.0);
 }
 
-// A golden of 224 batches: one in three has the value 3, the others have 0. It has much noise and little
-// skewness. In another estimator of the same mean, the events are ten times as rare and ten times as
-// large, so 32 batches may contain none of them.
+// A golden of 224 batches: one in three has the value 3, the others have 0. Another estimator of the
+// same mean, 1, may have events of up to four times what they add there, 8, and 32 pictures without any.
 TEST(RareEvents, MayBeWhatADarkSampleLacks)
 {
-    Values golden_batches;
-    for (int i = 0; i < 224; ++i) golden_batches.push_back(i % 3 == 0 ? 3.0 : 0.0);
-    const golden::Moments golden = golden::moments(golden_batches);
-    Values batches(32, 0.001);
-    const auto lacks = [&] { return may_lack_rare_events(golden::moments(batches), golden, 3.0, 1e-8); };
-    EXPECT_TRUE(lacks());
-    batches[5] = 30.0; // one event: variance and skewness show it
-    EXPECT_FALSE(lacks());
-    batches.assign(32, 2.0); // too bright
-    EXPECT_FALSE(lacks());
-    batches.assign(2000, 0.001); // so many batches would contain some
-    EXPECT_FALSE(lacks());
+    const MeanEstimate golden{1.0, 2.0 / 224.0, 223.0};
+    const MeanEstimate dark{0.001, 0.0, 31.0};
+    const auto p = [&](double pictures, const MeanEstimate& candidate) {
+        return golden::least_p_of_darkness(8.0, pictures, candidate, golden, 0.0);
+    };
+    // 32 / 8 events are expected; the noise of the golden may be a part of the difference.
+    EXPECT_GT(p(32.0, dark), 2.0 * std::exp(-4.0));
+    EXPECT_LT(p(32.0, dark), 2.2 * std::exp(-4.0));
+    EXPECT_LT(p(2000.0, dark), 1e-80); // so many pictures would contain some
+    EXPECT_EQ(p(32.0, {2.0, 0.0, 31.0}), 0.0);
+    EXPECT_EQ(golden::least_p_of_darkness(0.0, 32.0, dark, golden, 0.0), 0.0);
+    EXPECT_EQ(golden::least_p_of_darkness(8.0, 32.0, dark, golden, 1.0), 0.0);
 }
 
-// In a smooth region, batches differ by 5%. Events that are so rare and so large are not possible there.
-TEST(RareEvents, AreNotWhatABlackTileLacks)
+// By integration: the light x that is missing by chance is x with exp(-B x / E), and the golden's noise
+// is normal. The bound is above the chance of a difference d for each x, and at most a factor above the
+// largest of them, that of a normal tail of the same Chernoff bound.
+TEST(RareEvents, AndNoiseTogetherExplainADifferenceWithASmallerChanceThanTheBound)
 {
-    std::mt19937 random(5);
-    std::normal_distribution<double> noise(1.0, 0.05);
-    Values golden_batches(224);
-    for (double& value : golden_batches) value = noise(random);
-    const golden::Moments golden = golden::moments(golden_batches);
-    const double largest = *std::max_element(golden_batches.begin(), golden_batches.end());
-    for (const double level : {0.0, 0.5}) {
-        const Values batches(32, level);
-        EXPECT_FALSE(may_lack_rare_events(golden::moments(batches), golden, largest, 1e-8)) << level;
-    }
-    Values darker(32); // by 20%, with the same relative noise
-    for (double& value : darker) value = 0.8 * noise(random);
-    EXPECT_FALSE(may_lack_rare_events(golden::moments(darker), golden, largest, 1e-8));
+    for (const double pictures : {2.0, 16.0, 256.0})
+        for (const double error : {0.001, 0.03, 0.1})
+            for (const double missing : {0.05, 0.2, 1.0}) {
+                const double bound = golden::least_p_of_darkness(
+                    1.0, pictures, {1.0 - missing, 0.0, 15.0}, {1.0, error * error, 200.0}, 0.0);
+                double largest = 0.0;
+                for (double x = 0.0; x <= missing; x += missing / 1000.0)
+                    largest = std::max(largest, std::exp(-pictures * x) *
+                                                    std::erfc((missing - x) / error / std::sqrt(2.0)));
+                if (bound == 0.0) {
+                    // The whole difference by noise is the most likely explanation: that of the t test.
+                    EXPECT_DOUBLE_EQ(largest, std::erfc(missing / error / std::sqrt(2.0)));
+                } else {
+                    EXPECT_GE(bound, largest) << pictures << " " << error << " " << missing;
+                    EXPECT_LE(bound, 30.0 * largest) << pictures << " " << error << " " << missing;
+                }
+            }
+}
+
+TEST(RareEvents, HideLessLightInMorePictures)
+{
+    const double hidden = golden::hidden_light(8.0, 32.0, 0.01);
+    EXPECT_DOUBLE_EQ(std::exp(-32.0 * hidden / 8.0), 0.01);
+    EXPECT_DOUBLE_EQ(golden::hidden_light(8.0, 64.0, 0.01), hidden / 2.0);
 }
 
 TEST(MannWhitney, CompleteSeparationIsOneArrangementOfAll)

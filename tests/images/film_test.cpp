@@ -24,7 +24,7 @@ Image one_pixel(double value)
     return image;
 }
 
-TEST(Film, MeanAndStandardErrorOfFourBatchesAreThoseOfTheTextbook)
+TEST(Film, MeanAndStandardErrorOfFourBatchesAreThoseOfTheTextbook) // map: welford, standard-error
 {
     Film film(1, 1);
     for (const double batch : {1.0, 2.0, 3.0, 4.0}) film.add_batch(one_pixel(batch));
@@ -53,7 +53,7 @@ TEST(Film, FewerThanTwoBatchesSayNothingAboutTheError)
 // - A step adds a product whose factors are off by e_k and e_(k-1), with three roundings of at most R^2
 //   and one of the sum, at most k R^2 / 4: in total u (R M (n^2 / 2 + 3 n) + R^2 (7 n + n^2 / 8)).
 // Both are doubled for the higher orders, which are smaller by a factor of n u.
-RC_GTEST_PROP(Film, AgreesWithTwoPassesInHigherPrecision, ())
+RC_GTEST_PROP(Film, AgreesWithTwoPassesInHigherPrecision, ()) // map: welford
 {
     const auto spread = *rc::gen::element(1e-6, 1.0, 1e6);
     const auto offset = *rc::gen::element(0.0, 1.0, -1e8);

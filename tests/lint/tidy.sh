@@ -8,3 +8,4 @@ source "$(dirname "${BASH_SOURCE[0]}")/files.sh"
 cd "$1"
 require clang-tidy
 clang-tidy -quiet -p "$2" "$2/tidy/$3.cpp" 2> >(grep -v 'warnings generated' >&2)
+! tracked '*.h' '*.cuh' '*.cpp' '*.cu' | xargs -0 grep -nE '^ *typedef ' # modernize-use-using

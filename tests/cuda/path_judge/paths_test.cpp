@@ -109,6 +109,13 @@ void expect_few_left(const Tally& tally, double without_weight)
               without_weight * static_cast<double>(tally.contributions));
 }
 
+// map: film-position, camera-ray, camera-projection, importance, camera-density
+// map: emission-surface, emission-triangle, emission-sphere, emission-point, emission-directional
+// map: emission-environment, emitted-radiance, geometric-term, area-conversion, throughput, roulette
+// map: cosine-sampling, bsdf-lambertian, bsdf-mirror, bsdf-glass
+// map: refraction, fresnel, eta-squared, delta-lobe
+// map: emission-hit, next-event, light-image, inner-connection
+// map: density-y0, density-y1, density-light, density-z1, density-eye
 TEST(PathsInFloat, AreThoseOfTheReferenceInRandomScenes)
 {
     Tally tally;

@@ -15,7 +15,7 @@
 
 namespace {
 
-RC_GTEST_PROP(EmitterChoiceInFloat, HasTheBordersOfTheReference, ())
+RC_GTEST_PROP(EmitterChoiceInFloat, HasTheBordersOfTheReference, ()) // map: emitter-choice
 {
     const std::vector<double> powers = transport_test::any_powers();
     const std::vector<float> sums = fast::summed_probabilities(powers);

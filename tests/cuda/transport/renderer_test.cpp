@@ -164,7 +164,7 @@ images::Image sum_of_samples(const scenes::Scene& scene, const images::RenderOpt
     return sum;
 }
 
-TEST(BatchRenderer, AddsUpAllContributionsOfAllSamples)
+TEST(BatchRenderer, AddsUpAllContributionsOfAllSamples) // map: splat
 {
     for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
         const auto scene = our_scene("cornell_glass");

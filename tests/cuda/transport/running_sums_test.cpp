@@ -104,7 +104,7 @@ Heuristic any_heuristic()
     return *rc::gen::element(Heuristic::balance, Heuristic::power);
 }
 
-RC_GTEST_PROP(RunningSums, AreTheLiteralSums, ())
+RC_GTEST_PROP(RunningSums, AreTheLiteralSums, ()) // map: impossible, density-ratio, power
 {
     const HalfPath half = any_half();
     const Heuristic heuristic = any_heuristic();
@@ -138,7 +138,7 @@ bool is_share(float weight, long double S, long double T, int vertices)
 }
 
 /// Both walks of a path, each with the number of vertices of the other.
-RC_GTEST_PROP(RunningSums, GiveEveryStrategyItsShare, ())
+RC_GTEST_PROP(RunningSums, GiveEveryStrategyItsShare, ()) // map: balance
 {
     const HalfPath y = any_half();
     const HalfPath z = any_half();
@@ -168,6 +168,7 @@ RC_GTEST_PROP(RunningSums, GiveStrategiesAtTheEndsOfAPathTheirShare, ())
 }
 
 /// The weights of path tracing's two strategies add up to 1 for every path that both can make.
+// map: weight-of-hit, weight-of-event
 RC_GTEST_PROP(RunningSums, BalanceTheTwoStrategiesOfPathTracing, ())
 {
     const float hit = any_density();

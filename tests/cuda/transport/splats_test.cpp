@@ -79,7 +79,7 @@ void expect_all_there(Executor& executor, const std::vector<float>& values)
     for (std::size_t i = 0; i < exact.size(); ++i) RC_ASSERT(exact[i].value() == in_order[i].value());
 }
 
-RC_GTEST_PROP(Splats, AreAllThereInEveryOrderOfAtomicSteps, ())
+RC_GTEST_PROP(Splats, AreAllThereInEveryOrderOfAtomicSteps, ()) // map: splat
 {
     std::mt19937 chooser(*rc::gen::arbitrary<std::uint32_t>());
     parallel_test::InterleavedExecutor executor(

@@ -157,7 +157,7 @@ std::ostream& operator<<(std::ostream& out, const Spot& spot)
 
 class SpotLights : public testing::TestWithParam<Spot> {};
 
-TEST_P(SpotLights, ShedThePowerOfTheirConeInEveryIntegrator)
+TEST_P(SpotLights, ShedThePowerOfTheirConeInEveryIntegrator) // map: emission-spot
 {
     const Spot spot = GetParam();
     const scenes::Scene scene = spot_over_plane(spot);

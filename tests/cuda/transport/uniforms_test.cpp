@@ -14,7 +14,7 @@
 namespace {
 
 // The known answers of Random123 1.14 (kat_vectors): philox4x32, 10 rounds, all words 0.
-TEST(UniformsInFloat, AreTheHighestBitsOfPhilox)
+TEST(UniformsInFloat, AreTheHighestBitsOfPhilox) // map: random-numbers
 {
     const fast::Uniforms u = fast::uniforms({.seed = 0, .pixel = 0, .sample = 0}, fast::Event::camera);
     EXPECT_EQ(u[0], 0x6627e8p-24f);

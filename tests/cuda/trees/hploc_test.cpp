@@ -195,7 +195,7 @@ TEST_F(HplocOnDevice, IsTheSame)
     }
 }
 
-TEST(SahCost, IsTheReferences)
+TEST(SahCost, IsTheReferences) // map: sah-cost
 {
     Random random(6);
     fast::SerialExecutor serial;

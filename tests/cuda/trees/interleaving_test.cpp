@@ -61,7 +61,7 @@ std::vector<fast::Aabb> in_a_row(std::uint32_t n, bool chain)
     return boxes;
 }
 
-TEST(RefitInEveryInterleaving, GivesTheSameBoxes)
+TEST(RefitInEveryInterleaving, GivesTheSameBoxes) // map: refit
 {
     for (std::uint32_t n = 1; n <= 4; ++n)
         for (const bool chain : {false, true}) {

@@ -130,6 +130,7 @@ TEST_P(LbvhOn, IsTheReferenceTreeOfItsCodesAtEverySmallSizeAndAroundBlocks)
     }
 }
 
+// map: delta, range-direction, range-length, split, children
 TEST_P(LbvhOn, IsTheReferenceTreeOfItsCodesForEveryKindOfInput)
 {
     Random random(2);
@@ -166,7 +167,7 @@ TEST_P(LbvhOn, IsTheReferenceTreeOfItsCodesBeyondWhatAFloatCanCount)
     ASSERT_EQ(violations(build_on(GetParam(), boxes), boxes, GetParam().code_bits), Lines());
 }
 
-TEST_P(LbvhOn, TakesManyCoincidentPrimitives)
+TEST_P(LbvhOn, TakesManyCoincidentPrimitives) // map: delta-ties
 {
     for (const std::size_t n : {3u, 512u, 65537u}) {
         if (!takes(n)) continue;

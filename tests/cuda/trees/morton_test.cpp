@@ -41,7 +41,7 @@ std::vector<std::uint64_t> codes_of(const std::vector<fast::Aabb>& boxes, int bi
     return bits == 10 ? codes_of<std::uint32_t>(boxes) : codes_of<std::uint64_t>(boxes);
 }
 
-RC_GTEST_PROP(MortonCodeInFloat, SpreadsBitsAsTheReferenceDoes, ())
+RC_GTEST_PROP(MortonCodeInFloat, SpreadsBitsAsTheReferenceDoes, ()) // map: morton-code
 {
     const auto x = *rc::gen::inRange<std::uint32_t>(0, 1u << 21);
     RC_ASSERT(fast::spread_bits(std::uint64_t{x}) == ref::spread_bits(x));
@@ -75,7 +75,7 @@ double cells_apart(const std::vector<ref::Aabb>& boxes, int axis, int bits)
     return std::ceil(1.01 * std::ldexp(4 * error / (upper - lower - 2 * error) + 3 * 0x1p-24, bits));
 }
 
-RC_GTEST_PROP(MortonCodeInFloat, IsAFewCellsFromTheReferenceAlongEachAxis, ())
+RC_GTEST_PROP(MortonCodeInFloat, IsAFewCellsFromTheReferenceAlongEachAxis, ()) // map: morton-cell
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const auto kind = static_cast<Kind>(*rc::gen::inRange(0, trees_test::kinds));

@@ -75,7 +75,7 @@ std::optional<double> entry(const fast::Ray& ray, const fast::Aabb& box)
 }
 
 // The padding of 64 roundings of a float is far larger than the rounding of a double.
-RC_GTEST_PROP(WideSlabs, EnterEveryBoxThatTheRayPassesThroughAndNoneThatIsAbsent, ())
+RC_GTEST_PROP(WideSlabs, EnterEveryBoxThatTheRayPassesThroughAndNoneThatIsAbsent, ()) // map: slabs
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     for (int i = 0; i < 200; ++i) {

@@ -45,6 +45,7 @@ Encounter some_encounter(Random& random)
     return {sphere, ray};
 }
 
+// map: sphere-discriminant, sphere-distance
 RC_GTEST_PROP(IntersectSphereInFloat, FindsWhatIsThereWithinTheDerivedBound, ())
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());

@@ -27,6 +27,7 @@ using fast_trees_test::Traceable;
 using fast_trees_test::u;
 using trees_test::Random;
 
+// map: triangle-shear, triangle-distance
 TEST(IntersectTriangleInFloat, AgreesWithTheReferenceWithinItsRounding)
 {
     Random random(1);
@@ -67,7 +68,7 @@ TEST(IntersectTriangleInFloat, AgreesWithTheReferenceWithinItsRounding)
 }
 
 // In the 64 bits of a long double both products are exact, and the difference has the exact sign.
-RC_GTEST_PROP(EdgeSignInFloat, IsExactHoweverCloseTheRayPasses, ())
+RC_GTEST_PROP(EdgeSignInFloat, IsExactHoweverCloseTheRayPasses, ()) // map: triangle-edges
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const Vec3 p(random.in_cube());

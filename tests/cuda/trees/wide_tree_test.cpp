@@ -10,6 +10,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <map>
@@ -244,6 +245,57 @@ RC_GTEST_PROP(WideTree, BothTraversalsFindTheSameHits, ())
         const fast::Hit other = intersect_with_masks(surfaces, ray);
         RC_ASSERT(hit.primitive == other.primitive);
         RC_ASSERT(hit.t == other.t);
+    }
+}
+
+/// The groups that a ray along x tests, by both traversals, in a node whose children are `groups`:
+/// number g is between x = g and g + 0.5. `hit`: whether each is hit, in its middle.
+std::array<std::vector<std::uint32_t>, 2> groups_tested(const std::vector<std::uint32_t>& groups,
+                                                        bool hit)
+{
+    fast::WideNode node{};
+    for (int c = 0; c < fast::most_children; ++c) {
+        Aabb box = fast::empty_aabb();
+        node.children[c] = fast::no_node;
+        if (c < static_cast<int>(groups.size())) {
+            const std::uint32_t group = groups[static_cast<std::size_t>(c)];
+            const auto x = static_cast<float>(group);
+            box = {Vec3(x, -1, -1), Vec3(x + 0.5f, 1, 1)};
+            node.children[c] = group | fast::leaf_bit;
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            node.planes[axis][c] = box.lower[axis];
+            node.planes[3 + axis][c] = box.upper[axis];
+        }
+    }
+    const fast::WideTreeView tree{{&node, 1}, {}, Aabb{Vec3(0, -1, -1), Vec3(8, 1, 1)}};
+    const fast::Ray ray{Vec3(-1, 0, 0), std::numeric_limits<float>::infinity(), Vec3(1, 0, 0)};
+    const fast::WideSlabs slabs(fast::SlabRay(ray, tree.bounds));
+    std::array<std::vector<std::uint32_t>, 2> tested;
+    const auto record = [&](std::vector<std::uint32_t>& order) {
+        return [&order, hit, &ray](std::uint32_t group) {
+            order.push_back(group);
+            return hit ? static_cast<float>(group) + 1.25f : ray.t_max;
+        };
+    };
+    traverse_with_children(tree, 0, slabs, ray.t_max, record(tested[0]));
+    traverse_with_masks(tree, 0, slabs, ray.t_max, record(tested[1]));
+    return tested;
+}
+
+// A wrong order would cost time and change no hit.
+TEST(WideTree, BothTraversalsTestTheNearerGroupFirstAndNoneBeyondAHit) // map: traversal
+{
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 200; ++i) {
+        std::vector<std::uint32_t> groups = {0, 1, 2, 3, 4, 5, 6, 7};
+        std::ranges::shuffle(groups, random);
+        groups.resize(1 + static_cast<std::size_t>(i % fast::most_children));
+        std::vector<std::uint32_t> sorted = groups;
+        std::ranges::sort(sorted);
+        for (const auto& tested : groups_tested(groups, false)) EXPECT_EQ(tested, sorted);
+        sorted.resize(1);
+        for (const auto& tested : groups_tested(groups, true)) EXPECT_EQ(tested, sorted);
     }
 }
 

@@ -25,7 +25,7 @@ double refracted(double cos_i, double eta_i, double eta_t, double& cos_t)
     return ref::fresnel(cos_i, eta_i, eta_t, cos_t);
 }
 
-TEST(Bsdf, LambertianSamplesFollowTheirDensityOnBothSides)
+TEST(Bsdf, LambertianSamplesFollowTheirDensityOnBothSides) // map: bsdf-lambertian
 {
     const scenes::Material grey = scenes::Lambertian{Rgb(0.5)};
     for (const double side : {1.0, -1.0}) {
@@ -39,6 +39,7 @@ TEST(Bsdf, LambertianSamplesFollowTheirDensityOnBothSides)
     }
 }
 
+// map: bsdf-lambertian
 RC_GTEST_PROP(Bsdf, LambertianIsReciprocalAndItsDensitiesAgreeWithTheSample, ())
 {
     const scenes::Material material = scenes::Lambertian{Rgb(0.2, 0.5, 0.9)};
@@ -52,6 +53,21 @@ RC_GTEST_PROP(Bsdf, LambertianIsReciprocalAndItsDensitiesAgreeWithTheSample, ())
     for (int i = 0; i < 3; ++i) RC_ASSERT(std::abs(value[i] - s.value[i]) <= 4 * epsilon * s.value[i]);
 }
 
+// docs/derivations.md, section 1: what leaves again of the light from the whole hemisphere is the
+// albedo. In the cosine the integrand is linear, for which the midpoint rule is exact.
+TEST(Bsdf, LambertianReflectsItsAlbedo)
+{
+    const scenes::Material material = scenes::Lambertian{Rgb(0.2, 0.5, 0.9)};
+    constexpr int steps = 100;
+    Rgb reflected(0.0);
+    for (int i = 0; i < steps; ++i) {
+        const double z = (i + 0.5) / steps;
+        const Vec3 wi(std::sqrt(1.0 - z * z), 0.0, z);
+        reflected += evaluate_bsdf(material, Vec3(0.6, 0.0, 0.8), wi) * z * (2.0 * ref::pi / steps);
+    }
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(reflected[i], Rgb(0.2, 0.5, 0.9)[i], steps * epsilon) << i;
+}
+
 // Opaque: no light may pass to the other side.
 RC_GTEST_PROP(Bsdf, LambertianDoesNotTransmit, ())
 {
@@ -63,7 +79,7 @@ RC_GTEST_PROP(Bsdf, LambertianDoesNotTransmit, ())
     RC_ASSERT(pdf_solid_angle_bsdf(material, wo, wi) == 0.0);
 }
 
-RC_GTEST_PROP(Bsdf, MirrorReflectsAboutTheNormal, ())
+RC_GTEST_PROP(Bsdf, MirrorReflectsAboutTheNormal, ()) // map: bsdf-mirror
 {
     const Vec3 wo = *any_direction();
     const auto s = sample_bsdf(scenes::Material(scenes::Mirror{Rgb(0.7)}), wo, {}, Transport::radiance);
@@ -80,7 +96,7 @@ TEST(Fresnel, AtNormalIncidenceIsTheTextbookValue)
 
 // At Brewster's angle, tan(theta) = n, unpolarised reflectance is half of the perpendicular component,
 // ((1 - n^2) / (1 + n^2))^2 / 2, because the parallel component is 0.
-TEST(Fresnel, AtBrewstersAngleOnlyThePerpendicularPartIsLeft)
+TEST(Fresnel, AtBrewstersAngleOnlyThePerpendicularPartIsLeft) // map: fresnel
 {
     const double n = 1.45;
     double cos_t = 0.0;
@@ -113,9 +129,59 @@ RC_GTEST_PROP(Fresnel, IsTheSameFromBothSides, ())
     RC_ASSERT(std::abs(back - cos_i) < 1e-9);
 }
 
+// docs/derivations.md, section 8. The fields in the other medium, from the continuity of the fields
+// along the boundary: t = 1 + r for the electric field perpendicular to the plane of incidence, eta_t t
+// = eta_i (1 + r) for the one in it, where r = (1 - s) / (1 + s) and s is the quotient of the other two
+// parts. The power that crosses a piece of the boundary is eta |E|^2 cos. Tolerance: s is at least 0.05
+// and at most 20 here, so no digits are lost but those of cos_t, as above: epsilon / cos_t^2.
+RC_GTEST_PROP(Fresnel, LeavesToTheOtherSideWhatTheFieldsCarry, ())
+{
+    const double eta_i = 1.0 + *any_unit();
+    const double eta_t = 1.0 + *any_unit();
+    const double cos_i = *any_unit();
+    double cos_t = 0.0;
+    const double reflected = refracted(cos_i, eta_i, eta_t, cos_t);
+    RC_PRE(cos_i > 0.1 && cos_t > 0.1);
+    double passed = 0.0;
+    for (const double s : {eta_t * cos_t / (eta_i * cos_i), eta_i * cos_t / (eta_t * cos_i)}) {
+        const bool perpendicular = passed == 0.0;
+        const double r = (1.0 - s) / (1.0 + s);
+        const double field = perpendicular ? 1.0 + r : eta_i / eta_t * (1.0 + r);
+        passed += field * field * eta_t * cos_t / (eta_i * cos_i) / 2.0;
+    }
+    RC_ASSERT(std::abs(1.0 - reflected - passed) < 1e-12);
+}
+
+// docs/derivations.md, section 7. Directions of refraction for a small parallelogram of directions
+// around wo: solid angles are lengths of cross products, and eta^2 cos times them is the same on both
+// sides. Central differences of width 2 h have a relative error of h^2 times the third derivative (at
+// most some 1 / cos^4 with cosines above 0.3: 1e-10 * 123), and rounding gives epsilon / h = 2e-11 times
+// the same.
+RC_GTEST_PROP(Glass, RefractionKeepsEtaSquaredCosineTimesSolidAngle, ())
+{
+    const double ior = 1.2 + *any_unit();
+    const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), ior};
+    const Vec3 wo = *any_direction();
+    const auto refract = [&](const Vec3& w) {
+        return sample_bsdf(glass, glm::normalize(w), {0.5, 0.5, 1.0 - 0x1p-33, 0.5}, Transport::power)
+            .wi_local;
+    };
+    const Vec3 wi = refract(wo);
+    RC_PRE(wo.z * wi.z < 0.0 && std::abs(wo.z) > 0.3 && std::abs(wi.z) > 0.3);
+    constexpr double h = 1e-5;
+    const ref::Frame frame(wo);
+    const Vec3 du = (refract(wo + h * frame.x) - refract(wo - h * frame.x)) / (2.0 * h);
+    const Vec3 dv = (refract(wo + h * frame.y) - refract(wo - h * frame.y)) / (2.0 * h);
+    const double solid_angle = glm::length(glm::cross(du, dv)); // of one steradian on the side of wo
+    const double eta_o = wo.z > 0.0 ? 1.0 : ior;
+    const double eta_i = wo.z > 0.0 ? ior : 1.0;
+    const double kept = eta_i * eta_i * std::abs(wi.z) * solid_angle / (eta_o * eta_o * std::abs(wo.z));
+    RC_ASSERT(std::abs(kept - 1.0) < 1e-7);
+}
+
 // Snell's law, written independently of the code: eta_i sin_i = eta_t sin_t, in one plane, to the
 // other side.
-RC_GTEST_PROP(Glass, RefractsBySnellsLaw, ())
+RC_GTEST_PROP(Glass, RefractsBySnellsLaw, ()) // map: refraction
 {
     const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), 1.45};
     const Vec3 wo = *any_direction();
@@ -129,7 +195,7 @@ RC_GTEST_PROP(Glass, RefractsBySnellsLaw, ())
 
 // The value of a delta lobe is its colour, times (eta_i / eta_t)^2 where radiance is refracted: the
 // Fresnel factor and the probability of the lobe cancel.
-RC_GTEST_PROP(Glass, RadianceIsSqueezedAndPowerIsNot, ())
+RC_GTEST_PROP(Glass, RadianceIsSqueezedAndPowerIsNot, ()) // map: eta-squared
 {
     const scenes::Material glass = scenes::Glass{Rgb(0.9), Rgb(0.8), 1.5};
     const Vec3 wo = *any_direction();
@@ -168,7 +234,7 @@ RC_GTEST_PROP(Glass, ARoundTripInAndOutIsLossless, ())
 
 // The reflected and transmitted fractions add up to 1: tests the frequencies of the lobes against
 // Fresnel's equations, and, for power, that the total equals the incident power.
-TEST(Glass, ConservesPower)
+TEST(Glass, ConservesPower) // map: bsdf-glass
 {
     const scenes::Material glass = scenes::Glass{Rgb(1.0), Rgb(1.0), 1.45};
     for (const double z : {0.9, 0.3, -0.9, -0.3}) {
@@ -186,7 +252,7 @@ TEST(Glass, ConservesPower)
     }
 }
 
-TEST(Roulette, StartsAfterTheFourthBounceAndNeverKeepsAWalkForCertain)
+TEST(Roulette, StartsAfterTheFourthBounceAndNeverKeepsAWalkForCertain) // map: roulette
 {
     const scenes::Material white = scenes::Mirror{Rgb(1.0)};
     const scenes::Material red = scenes::Lambertian{Rgb(0.6, 0.1, 0.1)};

@@ -1,4 +1,5 @@
 #include "ref/transport/camera.h"
+#include "ref/transport/world.h"
 #include "tests/ref/transport/chi_squared.h"
 #include "tests/ref/transport/generators.h"
 #include "tests/ref/transport/random_scene.h"
@@ -35,7 +36,7 @@ const View views[] = {{0.6, scenes::FovAxis::horizontal, 30, 20},
 
 // At the edges of a wide picture the cosine is c = cos(fov / 2): the roundoff of a direction moves the
 // film point by 1 / c^2 half widths.
-RC_GTEST_PROP(Camera, ProjectsARayBackToItsFilmPoint, ())
+RC_GTEST_PROP(Camera, ProjectsARayBackToItsFilmPoint, ()) // map: camera-projection
 {
     const View view = *rc::gen::elementOf(std::vector<View>(std::begin(views), std::end(views)));
     const Camera camera(oblique(view.fov, view.axis), view.width, view.height);
@@ -52,7 +53,7 @@ RC_GTEST_PROP(Camera, ProjectsARayBackToItsFilmPoint, ())
 
 // The corners of the picture by their angles: the field of view has the given size, up is up, and
 // right is right.
-TEST(Camera, SeesTheFieldOfViewThatItIsGiven)
+TEST(Camera, SeesTheFieldOfViewThatItIsGiven) // map: camera-ray
 {
     for (const View& view : views) {
         const auto data = oblique(view.fov, view.axis);
@@ -107,6 +108,33 @@ TEST(Camera, CountsPixelsFromTheTopLeft)
     EXPECT_NEAR(film->y, 10 * (1 - 0.1 / (half * 20 / 30)), 1e-13);
 }
 
+// Uniform and independent in both directions: the moments E x^2 = E y^2 = 1/3 and E x y = 1/4 have
+// standard deviations of sqrt(4/45) and sqrt(7/144) over the root of the number of samples. Five of them
+// are allowed; the centre of the pixel for all samples, or one number for both directions, is 16 and
+// more away.
+TEST(CameraRay, PassesThroughAUniformPointOfItsPixel) // map: film-position
+{
+    scenes::Scene scene;
+    scene.camera = oblique(1.0, scenes::FovAxis::horizontal);
+    const ref::World world(scene, 7, 5);
+    constexpr std::uint32_t samples = 100;
+    constexpr std::uint32_t pixels = 7 * 5;
+    Vec3 moments(0.0);
+    for (std::uint32_t i = 0; i < samples * pixels; ++i) {
+        const std::uint32_t pixel = i / samples;
+        const auto film = world.camera.project(camera_ray(world, {3, pixel, i % samples}).direction);
+        ASSERT_TRUE(film.has_value());
+        const glm::dvec2 in_pixel = *film - glm::dvec2(pixel % 7, pixel / 7);
+        ASSERT_TRUE(in_pixel.x > 0 && in_pixel.x < 1 && in_pixel.y > 0 && in_pixel.y < 1) << i;
+        moments += Vec3(in_pixel.x * in_pixel.x, in_pixel.y * in_pixel.y, in_pixel.x * in_pixel.y);
+    }
+    const double five = 5.0 / std::sqrt(samples * pixels);
+    moments /= samples * pixels;
+    EXPECT_NEAR(moments.x, 1.0 / 3.0, five * std::sqrt(4.0 / 45.0));
+    EXPECT_NEAR(moments.y, 1.0 / 3.0, five * std::sqrt(4.0 / 45.0));
+    EXPECT_NEAR(moments.z, 0.25, five * std::sqrt(7.0 / 144.0));
+}
+
 /// The integral over the directions of the picture, by midpoints in the spherical angles around the
 /// camera's axis. Of the camera it uses only whether a direction is in the picture.
 template <class Function>
@@ -129,7 +157,7 @@ double over_the_picture(const Camera& camera, const scenes::Camera& data, Functi
 // pdf and W_e cos are 1 / (A c^3). At the border of the picture the midpoint rule has an error of less
 // than one cell, at each of about 2 x 1600 cells, and errors of both signs cancel. The tolerance of
 // 1e-3 is 20 times the observed error; a wrong power of the cosine or a missing area is 5% and more.
-TEST(Camera, DensityAndImportanceIntegrateToOne)
+TEST(Camera, DensityAndImportanceIntegrateToOne) // map: importance, camera-density
 {
     for (const View& view : views) {
         const auto data = oblique(view.fov, view.axis);
@@ -148,7 +176,7 @@ TEST(Camera, DensityAndImportanceIntegrateToOne)
 
 // Uniform film points over the whole picture give directions with the camera's density: on the unit
 // square of (1 - z, phi), equal in area, as far from the axis as the picture extends.
-TEST(Camera, DirectionsFollowTheirDensity)
+TEST(Camera, DirectionsFollowTheirDensity) // map: camera-density
 {
     for (const View& view : views) {
         const auto data = oblique(view.fov, view.axis);

@@ -67,7 +67,7 @@ bool never(const Vec3& /*p*/)
     return false;
 }
 
-TEST(ClosedForm, PointLightOverPlane)
+TEST(ClosedForm, PointLightOverPlane) // map: emission-point
 {
     const scenes::Scene scene = transport_test::our_scene("point_over_plane");
     const auto& light = scene.point_lights.at(0);
@@ -80,7 +80,7 @@ TEST(ClosedForm, PointLightOverPlane)
         never);
 }
 
-TEST(ClosedForm, DirectionalLightOverPlaneWithTheShadowOfABall)
+TEST(ClosedForm, DirectionalLightOverPlaneWithTheShadowOfABall) // map: emission-directional
 {
     const scenes::Scene scene = transport_test::our_scene("directional_over_plane");
     const auto& light = scene.directional_lights.at(0);
@@ -121,7 +121,7 @@ Blocked blocked_by_a_card(const scenes::Scene& scene, const Vec3& from, const Ve
     return answer;
 }
 
-TEST(ClosedForm, SpotLightOverPlaneWithTheShadowsOfTwoCards)
+TEST(ClosedForm, SpotLightOverPlaneWithTheShadowsOfTwoCards) // map: emission-spot
 {
     const scenes::Scene scene = transport_test::our_scene("spot_over_plane");
     const auto& light = scene.spot_lights.at(0);
@@ -153,7 +153,7 @@ TEST(ClosedForm, SpotLightOverPlaneWithTheShadowsOfTwoCards)
 // A sphere wholly above the horizon lights a plane with E = pi L (r/d)^2 cos, for any size of the
 // sphere. The whole picture and its quarters are compared with the closed form, integrated over each
 // pixel with 16 x 16 points.
-TEST(ClosedForm, LuminousSphereOverPlane)
+TEST(ClosedForm, LuminousSphereOverPlane) // map: weight-of-hit, weight-of-event
 {
     const scenes::Scene scene = transport_test::our_scene("sphere_over_plane");
     const auto& ball = scene.spheres.at(0);

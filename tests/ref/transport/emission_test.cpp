@@ -124,6 +124,7 @@ ref::Vertex facing_vertex(const ref::Vertex& y0, const Vec3& w)
 
 // For a finite emitter the direction is tested by chi-squared; for an emitter at infinity the position
 // on the disc, which must cover the ball around the scene.
+// map: emission-surface, emission-point, emission-spot
 TEST_P(Emission, DirectionsFollowTheirDensity)
 {
     const auto y0 = [&](const ref::Uniforms& u) {
@@ -166,7 +167,7 @@ TEST_P(Emission, DirectionsFollowTheirDensity)
 
 // The density of y1 per area is the density per solid angle times cosine over squared distance: at
 // three times the distance and 60 degrees tilt it is an eighteenth; from infinity a half.
-TEST_P(Emission, DensityAtTheNextVertexIsPerArea)
+TEST_P(Emission, DensityAtTheNextVertexIsPerArea) // map: area-conversion, density-y1
 {
     const auto start = *sample_emission(world, {chooses, 0.3, 0.6, 0.5}, {0.4, 0.7, 0.5, 0.5});
     const Vec3 w = start.ray.direction;
@@ -183,7 +184,7 @@ TEST_P(Emission, DensityAtTheNextVertexIsPerArea)
 
 // Positions are uniform on a surface, with density P / A. Directions of the environment are uniform,
 // with P / 4 pi. Each of the other emitters has one position, with probability P.
-TEST_P(Emission, PositionsFollowTheirDensity)
+TEST_P(Emission, PositionsFollowTheirDensity) // map: density-y0
 {
     const EmitterKind kind = GetParam();
     const double probability = probability_of(scene, kind);
@@ -231,6 +232,7 @@ TEST_P(Emission, PositionsFollowTheirDensity)
 // from one kind is the flux of that kind. These numbers are exact: for all kinds except the spot every
 // walk has the same weight, so that one walk is enough; the weight of the spot is a smooth function of
 // one number, integrated by midpoints (1e-6: second order in 1 / 4096).
+// map: emission-surface, emission-point, emission-spot, emission-directional, emission-environment
 TEST_P(Emission, WalksCarryTheFluxOfTheirEmitter)
 {
     const EmitterKind kind = GetParam();

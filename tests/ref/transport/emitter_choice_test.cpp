@@ -37,7 +37,7 @@ RC_GTEST_PROP(EmitterChoice, EveryEmitterWithPowerHasWholeCellsAndNoOtherHasAny,
 
 // Each of the k emitters gets one cell first, which takes k cells from the shared part. Both borders
 // of an emitter are rounded by half a cell.
-RC_GTEST_PROP(EmitterChoice, HalfIsByPowerAndHalfIsAlike, ())
+RC_GTEST_PROP(EmitterChoice, HalfIsByPowerAndHalfIsAlike, ()) // map: emitter-choice
 {
     const std::vector<double> powers = transport_test::any_powers();
     const double total = transport_test::total_of(powers);

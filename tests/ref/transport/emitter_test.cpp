@@ -76,7 +76,7 @@ TEST(Emitter, LightFromATriangleFollowsItsDensity)
 // Seen from outside, a uniform point of a sphere has a density per solid angle that is unbounded near
 // the outline, so that no grid of directions resolves it. The points are tested on the sphere itself,
 // and the densities by the next two tests.
-TEST(Emitter, PointsOnASphereAreUniform)
+TEST(Emitter, PointsOnASphereAreUniform) // map: emission-sphere
 {
     const scenes::Scene scene = sphere_lamp();
     const Geometry geometry(scene);
@@ -117,7 +117,7 @@ TEST(Emitter, DensityOnASphereIntegratesToItsSolidAngle)
 }
 
 // [Van Oosterom & Strackee 1983, eq. 8]
-TEST(Emitter, DensityOnATriangleIntegratesToItsSolidAngle)
+TEST(Emitter, DensityOnATriangleIntegratesToItsSolidAngle) // map: area-conversion
 {
     const auto v = triangle_lamp().triangles[0].vertices;
     const Vec3 a = glm::normalize(v[0] - from);
@@ -147,7 +147,7 @@ TEST(Emitter, TheChoiceAmongEmittersIsPartOfTheDensity)
         100);
 }
 
-TEST(Emitter, EnvironmentFollowsItsDensity)
+TEST(Emitter, EnvironmentFollowsItsDensity) // map: emission-environment
 {
     scenes::Scene scene = sphere_lamp();
     scene.materials = {scenes::Lambertian{Rgb(0.5)}};
@@ -176,7 +176,7 @@ RC_GTEST_PROP(Emitter, ADrawnDensityIsTheDensityOfAHit, ())
     RC_ASSERT(light->radiance == std::get<scenes::Emission>(scene.materials[0]).radiance);
 }
 
-TEST(Emitter, ShinesOnTheSideOfItsNormalOnly)
+TEST(Emitter, ShinesOnTheSideOfItsNormalOnly) // map: emitted-radiance
 {
     scenes::Scene scene = triangle_lamp();
     std::swap(scene.triangles[0].vertices[1], scene.triangles[0].vertices[2]); // now it faces away

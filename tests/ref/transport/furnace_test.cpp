@@ -48,7 +48,7 @@ TEST(FurnaceBySample, EveryWalkBringsHomeTheWholeSky)
 
 // With roulette, the probability to survive a bounce, from the first one that it may end, is at most
 // 0.95 (on white, exactly 0.95), and the weight of a walk that survives must grow accordingly.
-TEST(FurnaceBySample, WhatSurvivesRouletteBringsTheOthersShare)
+TEST(FurnaceBySample, WhatSurvivesRouletteBringsTheOthersShare) // map: roulette, throughput
 {
     const scenes::Scene scene = transport_test::our_scene("furnace");
     const ref::World world(scene, 24, 16);

@@ -45,7 +45,7 @@ double sine_at(const Line& line, const Vec3& center, double radius)
 // A ray inside a ball meets it at the same angle at every reflection. If it is totally reflected it
 // never leaves; otherwise every single sample has n^2 times the radiance of the sky. Rays within 1e-9
 // of the critical angle are left out.
-TEST(GlassRoomsBySample, OutOfGlassTheSkyIsEtaSquaredBrighterOrNotThere)
+TEST(GlassRoomsBySample, OutOfGlassTheSkyIsEtaSquaredBrighterOrNotThere) // map: eta-squared
 {
     const scenes::Scene scene = transport_test::our_scene("camera_in_glass_furnace");
     const ref::World world(scene, width, height);

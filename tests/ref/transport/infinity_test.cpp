@@ -34,7 +34,7 @@ TEST(Infinity, AnEmptySceneShowsTheSky)
 // With a black ball behind the eye the sky can also be chosen, and seen as a light image of one
 // vertex. A hit has the density 1 / (A c^3), a choice 1 / (4 pi). For a picture of 1.86 sr found by
 // both strategies, every weight is known: c^-3 / (c^-3 + A / (4 pi)).
-TEST(Infinity, TheSkyIsHitAndChosenWithTheirShares)
+TEST(Infinity, TheSkyIsHitAndChosenWithTheirShares) // map: balance
 {
     scenes::Scene scene;
     scene.materials = {scenes::Lambertian{Rgb(0.0)}};

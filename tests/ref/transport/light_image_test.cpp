@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Splats,
 
 // The mean radiance of a picture does not depend on its number of pixels; nor does that of a part that
 // another aspect ratio shows as well. Splats divided by the wrong number fail here.
-TEST_P(Splats, HaveTheSameScaleInEverySizeAndShape)
+TEST_P(Splats, HaveTheSameScaleInEverySizeAndShape) // map: splat
 {
     const scenes::Scene scene = transport_test::our_scene("cornell_diffuse"); // horizontal field of view
     const auto part = [&](int width, int height, int batch_size, const transport_test::Region& region) {

@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"ceiling_lamp", 3, 4, {0.5, 0.8}, 16, {0.16, 1.2}}),
     [](const auto& name) { return std::string(name.param.name); });
 
-TEST_P(LightStrategies, MakeAllLightOfTheirLength)
+TEST_P(LightStrategies, MakeAllLightOfTheirLength) // map: light-image, inner-connection
 {
     const Case& c = GetParam();
     const bool at_length = std::getenv("PLUMBLINE_LONG") != nullptr;

@@ -257,6 +257,8 @@ void check_scene(const scenes::Scene& scene, const ref::PathOptions& options, st
     }
 }
 
+// map: throughput, delta-lobe, area-conversion, density-light, density-z1, density-eye
+// map: impossible, density-ratio, balance, power
 RC_GTEST_PROP(MisWeight, EveryContributionIsThroughputOverDensityTimesItsShare, ())
 {
     const scenes::Scene scene = transport_test::any_scene();
@@ -336,6 +338,7 @@ Vertex any_emitter_vertex(const ref::World& world)
 
 // Weights depend only on the path. Here the path is made of points of scattering surfaces that no walk
 // has sampled, in any number, visible to each other or not.
+// map: area-conversion, density-y0, density-y1, density-ratio
 RC_GTEST_PROP(MisWeight, AnyPointsMakeAPathWhoseWeightsAreTheDefinitions, ())
 {
     scenes::Scene scene = transport_test::any_scene();

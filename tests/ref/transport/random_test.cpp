@@ -11,7 +11,7 @@ using ref::Event;
 using ref::uniforms;
 
 // The known answers of Random123 1.14 (kat_vectors): philox4x32, 10 rounds, all words 0.
-TEST(Random, IsPhiloxWithTenRounds)
+TEST(Random, IsPhiloxWithTenRounds) // map: random-numbers
 {
     const auto u = uniforms({.seed = 0, .pixel = 0, .sample = 0}, Event::camera);
     EXPECT_EQ(u[0], (0x6627e8d5 + 0.5) * 0x1p-32);

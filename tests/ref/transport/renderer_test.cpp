@@ -129,7 +129,7 @@ TEST(Render, ShowsTheFilmAfterEachBatch)
 }
 
 // The splats of one walk are divided by the samples per pixel, once.
-TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel)
+TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel) // map: splat
 {
     const auto one_each = [](const ref::World& /*world*/, const ref::PathOptions& /*options*/,
                              const ref::SampleId& id, std::vector<Contribution>& out) {

@@ -15,7 +15,7 @@ double cosine_density(const glm::dvec3& w)
     return ref::pdf_solid_angle_cosine_hemisphere(w);
 }
 
-TEST(Sampling, CosineHemisphereFollowsItsDensity)
+TEST(Sampling, CosineHemisphereFollowsItsDensity) // map: cosine-sampling
 {
     const auto sample = [](const Uniforms& u) { return ref::sample_cosine_hemisphere(u[0], u[1]); };
     transport_test::expect_directions_follow_density(sample, cosine_density, transport_test::coarse, 8);
@@ -33,7 +33,7 @@ TEST(Sampling, SphereFollowsItsDensity)
 // The triangle is half of the unit square, so a uniform point has density 2 there. The midpoint rule
 // is exact except for the cells on the diagonal, where 64 x 64 points leave an error of at most 1/64
 // of a cell.
-TEST(Sampling, TriangleFollowsItsDensity)
+TEST(Sampling, TriangleFollowsItsDensity) // map: emission-triangle
 {
     const auto sample = [](const Uniforms& u) {
         const Vec3 b = ref::sample_triangle(u[0], u[1]);
@@ -69,6 +69,39 @@ TEST(Sampling, DensitiesIntegrateToOne)
     };
     EXPECT_NEAR(integral(cosine_density), 1.0, 1e-4);
     EXPECT_NEAR(integral([](const Vec3&) { return ref::pdf_solid_angle_sphere; }), 1.0, 1e-12);
+}
+
+/// The mean of f(u1, u2) over the unit square, by the midpoint rule.
+template <class Function>
+double mean_over_square(const Function& f)
+{
+    constexpr int steps = 200;
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i)
+        for (int k = 0; k < steps; ++k) sum += f((i + 0.5) / steps, (k + 0.5) / steps);
+    return sum / (steps * steps);
+}
+
+// docs/derivations.md, sections 2 to 4. The midpoint rule has an error of the order of 1 / steps^2 where
+// the integrand is smooth, and of 1 / steps^1.5 = 3.5e-4 where it is a square root of u or of 1 - u,
+// which are 0 at an end: the error of the first cell is a share of its integral, steps^-1.5.
+TEST(Sampling, MeansAreThoseOfTheDensities)
+{
+    const auto cosine = [](double u1, double u2) { return ref::sample_cosine_hemisphere(u1, u2).z; };
+    EXPECT_NEAR(mean_over_square(cosine), 2.0 / 3.0, 3.5e-4); // integral of cos^2 / pi
+    for (int corner = 0; corner < 3; ++corner) {
+        const auto weight = [&](double u1, double u2) { return ref::sample_triangle(u1, u2)[corner]; };
+        EXPECT_NEAR(mean_over_square(weight), 1.0 / 3.0, 3.5e-4) << corner;
+        const auto square = [&](double u1, double u2) { return weight(u1, u2) * weight(u1, u2); };
+        EXPECT_NEAR(mean_over_square(square), 1.0 / 6.0, 7e-4) << corner; // twice: slope of the square
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto square = [&](double u1, double u2) {
+            const double x = ref::sample_sphere(u1, u2)[axis];
+            return x * x;
+        };
+        EXPECT_NEAR(mean_over_square(square), 1.0 / 3.0, 1.0 / (200 * 200)) << axis;
+    }
 }
 
 RC_GTEST_PROP(Sampling, FrameIsOrthonormalRightHandedAndUndoesItself, ())

@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EyeStrategies,
 // Both do the same operations on the same numbers in different orders: the weight of a walk is a
 // product of at most 3 factors per vertex; next event divides by a density or multiplies by a
 // geometric term. 1e-12 leaves room for 1e4 roundoffs; there is no cancellation.
-TEST_P(EyeStrategies, AreThoseOfThePathTracerSampleBySample)
+TEST_P(EyeStrategies, AreThoseOfThePathTracerSampleBySample) // map: emission-hit, next-event
 {
     const scenes::Scene scene = transport_test::our_scene(GetParam());
     const ref::World world(scene, 24, 16);
@@ -102,7 +102,7 @@ TEST_P(LightTracing, IsTheLightImageAlone)
 // = 1 / (4 R^2), so a connection is not random. Each is rho^(k-1) I / (pi R^2), up to the roundoff of
 // the distance from a difference of coordinates, squared, and of two cosines. For two points closer
 // than 1e-4 R the error may be 1e-16 / 1e-8 / 1e-4; no pair here is so close.
-TEST(Connections, InTheIntegratingSphereAreAllTheSame)
+TEST(Connections, InTheIntegratingSphereAreAllTheSame) // map: geometric-term, inner-connection
 {
     const scenes::Scene scene = transport_test::our_scene("integrating_sphere");
     const ref::World world(scene, 16, 16);

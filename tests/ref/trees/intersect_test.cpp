@@ -78,7 +78,7 @@ int sign(double x)
     return (x > 0) - (x < 0);
 }
 
-RC_GTEST_PROP(EdgeFunction, HasTheExactSignHoweverCloseTheRayPasses, ())
+RC_GTEST_PROP(EdgeFunction, HasTheExactSignHoweverCloseTheRayPasses, ()) // map: triangle-edges
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const Vec3 p = random.in_cube();
@@ -98,7 +98,7 @@ RC_GTEST_PROP(EdgeFunction, HasTheExactSignHoweverCloseTheRayPasses, ())
 // at a greater distance from its edges, which in barycentric coordinates is 7 u D / height. The factor
 // of 4 accounts for the two ends of an edge moving in opposite directions, and for the third vertex
 // moving too.
-TEST(IntersectTriangle, AgreesWithExactArithmetic)
+TEST(IntersectTriangle, AgreesWithExactArithmetic) // map: triangle-shear, triangle-distance
 {
     Random random(1);
     int hits = 0;
@@ -287,7 +287,7 @@ double exact_miss(const Ray& ray, const Vec3& center, double radius)
 
 // f = o - c, (b/a) d and l are each rounded by u |f|, so |l| has an error of at most 3 u |f| + 2 u r.
 // Therefore |l|^2 / r^2 - 1 is certain if it is larger than twice that over r.
-TEST(IntersectSphere, IsHitOrMissedAsExactArithmeticSays)
+TEST(IntersectSphere, IsHitOrMissedAsExactArithmeticSays) // map: sphere-discriminant, sphere-distance
 {
     Random random(2);
     int hits = 0;

@@ -24,7 +24,7 @@ std::uint64_t interleave(const Cell& cell, int bits)
     return code;
 }
 
-TEST(MortonCode, BitsAlternateWithXFirst)
+TEST(MortonCode, BitsAlternateWithXFirst) // map: morton-code
 {
     EXPECT_EQ(morton_encode({0b0000000001, 0b0000000000, 0b0000000000}), 0b000'000'000'100u);
     EXPECT_EQ(morton_encode({0b0000000000, 0b0000000001, 0b0000000000}), 0b000'000'000'010u);
@@ -94,7 +94,7 @@ RC_GTEST_PROP(MortonCode, OrderIsTheOrderAlongTheCurve, ())
     RC_ASSERT((morton_encode(a) < morton_encode(b)) == before);
 }
 
-RC_GTEST_PROP(MortonCode, DecodesToTheCellThatHoldsThePoint, ())
+RC_GTEST_PROP(MortonCode, DecodesToTheCellThatHoldsThePoint, ()) // map: morton-cell
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const int bits = *rc::gen::element(10, 21);

@@ -61,7 +61,7 @@ int log2_up(std::size_t n)
 // [Karras 2012, fig. 3]
 const Codes karras_example = {0b00001, 0b00010, 0b00100, 0b00101, 0b10011, 0b11000, 0b11001, 0b11110};
 
-TEST(RadixTree, IsTheOneInKarrasFigure)
+TEST(RadixTree, IsTheOneInKarrasFigure) // map: delta, children
 {
     const std::vector<Node> nodes = ref::radix_tree(karras_example);
     ASSERT_EQ(nodes.size(), 15u);
@@ -76,7 +76,7 @@ TEST(RadixTree, IsTheOneInKarrasFigure)
     EXPECT_EQ(nodes[6].children, (Children{leaf(5), leaf(6)})); // 11000 | 11001
 }
 
-TEST(RadixTree, NodesOfTheFigureCoverTheirRanges)
+TEST(RadixTree, NodesOfTheFigureCoverTheirRanges) // map: range-direction, range-length, split
 {
     const auto expect = [](std::int64_t node, std::int64_t first, std::int64_t last,
                            std::int64_t gamma) {
@@ -134,6 +134,7 @@ Codes any_codes(std::size_t n, int bits, Random& random)
     return codes;
 }
 
+// map: delta, range-direction, range-length, split, children
 RC_GTEST_PROP(RadixTree, IsTheRecursiveOneAndValidAndShallow, ())
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
@@ -156,6 +157,7 @@ TEST(RadixTree, EveryKeyIsCoveredByExactlyOneLeafAtSizesAroundPowersOfTwo)
         }
 }
 
+// map: delta-ties
 TEST(RadixTree, OfEqualKeysIsBalanced) // without the tie-break: a chain, or nodes without parents
 {
     for (const std::size_t n : {2u, 3u, 5u, 100u, 65536u, 100000u}) {

@@ -32,6 +32,7 @@ Tree without_boxes(Tree tree)
     return tree;
 }
 
+// map: refit
 TEST(Refit, GivesTheSameBoxesForEveryOrderOfArrival) // all orders of up to 6 leaves, and some of 7
 {
     Random random(1);

@@ -62,7 +62,7 @@ double least_split_cost(std::span<const Aabb> boxes, std::vector<std::uint32_t> 
     return least;
 }
 
-RC_GTEST_PROP(BuildSah, SplitsEveryNodeAtTheLeastCost, ())
+RC_GTEST_PROP(BuildSah, SplitsEveryNodeAtTheLeastCost, ()) // map: sah-split
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
     const std::size_t n = *rc::gen::inRange<std::size_t>(2, 40);
@@ -95,7 +95,7 @@ RC_GTEST_PROP(BuildSah, MakesALeafExactlyWhereThatIsNoDearer, ())
     }
 }
 
-TEST(Quality, OfAHandMadeTreeIsWhatOneCounts)
+TEST(Quality, OfAHandMadeTreeIsWhatOneCounts) // map: sah-cost
 {
     // Two unit cubes side by side in a box of half area 2 + 1 + 2 = 5.
     const std::vector<Aabb> boxes = {{Vec3(0), Vec3(1)}, {Vec3(1, 0, 0), Vec3(2, 1, 1)}};
@@ -106,7 +106,19 @@ TEST(Quality, OfAHandMadeTreeIsWhatOneCounts)
     EXPECT_DOUBLE_EQ(found.overlap, 1.0 / 5); // the face they share
 }
 
-TEST(Quality, ALeafCostsAsManyTestsAsItHoldsPrimitives)
+TEST(Quality, AnInternalNodeCountsByItsArea) // map: sah-cost
+{
+    // Three unit cubes in a row, the third after a gap: half areas 9 of the root, 5 of the first two, 3
+    // of each.
+    const std::vector<Aabb> boxes = {
+        {Vec3(0), Vec3(1)}, {Vec3(1, 0, 0), Vec3(2, 1, 1)}, {Vec3(3, 0, 0), Vec3(4, 1, 1)}};
+    const ref::Quality found = ref::quality(ref::build(boxes, ref::Builder::sah));
+    EXPECT_DOUBLE_EQ(found.sah_cost, 1 + 5.0 / 9 + 3 * (3.0 / 9));
+    EXPECT_EQ(found.depth, 2);
+    EXPECT_DOUBLE_EQ(found.overlap, 1.0 / 9);
+}
+
+TEST(Quality, ALeafCostsAsManyTestsAsItHoldsPrimitives) // map: sah-cost
 {
     Tree tree; // one leaf, the root: every ray that hits it tests all of its primitives
     tree.nodes.resize(1);

@@ -167,6 +167,7 @@ TEST(Traverse,
     EXPECT_GT(hits, 300000u);
 }
 
+// map: slabs
 TEST(Slabs,
      AreEnteredBeforeAnythingInThemIsHit) // the condition that the padding must meet, for each primitive
 {
@@ -190,7 +191,7 @@ TEST(Slabs,
     EXPECT_GT(hits, 10000);
 }
 
-TEST(Slabs, AreMissedByRaysThatPassAtADistance)
+TEST(Slabs, AreMissedByRaysThatPassAtADistance) // map: slabs
 {
     const Aabb box{Vec3(1, 1, 1), Vec3(2, 3, 4)};
     const auto entry = [&](const Vec3& origin, const Vec3& direction) {
@@ -254,7 +255,7 @@ TEST(Traverse, GoesThroughATreeOfAnyDepth) // a fixed stack of 64 would overflow
     }
 }
 
-TEST(Traverse, EntersTheNearerChildFirstAndNoBoxBeyondAHit)
+TEST(Traverse, EntersTheNearerChildFirstAndNoBoxBeyondAHit) // map: traversal
 {
     scenes::Scene scene = scene_of(trees_test::Mesh{});
     for (const double z : {1.0, 2.0})
