@@ -3,9 +3,6 @@
 #include "cli/reference_options.h"
 #include "images/families.h"
 
-#include <array>
-#include <charconv>
-
 namespace cli {
 
 namespace {
@@ -21,13 +18,6 @@ std::string names_of_left_out(const RenderCommand& options)
     for (const auto& [name, family] : images::named_families)
         if (!(families.*family)) names += (names.empty() ? "" : " ") + std::string(name);
     return names.empty() ? "nothing" : names;
-}
-
-/// The shortest decimal number that is read as `value`.
-std::string shortest(double value)
-{
-    std::array<char, 32> text{};
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 } // namespace
