@@ -56,14 +56,21 @@ void expect_size(const fs::path& path, const images::Image& image, const golden:
                                            std::to_string(golden.mean.height));
 }
 
+/// A number of samples per pixel in the metadata; 0 if there is none.
+double samples_in(const images::Metadata& metadata, const char* key)
+{
+    const std::string text = value_of(metadata, key);
+    double samples = 0.0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), samples);
+    return error == std::errc() && rest == text.data() + text.size() ? samples : 0.0;
+}
+
 double samples_of(const std::string& file, const images::Metadata& metadata,
                   const CompareCommand& options)
 {
     if (options.samples) return *options.samples;
-    const std::string text = value_of(metadata, "samples");
-    double samples = 0.0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), samples);
-    if (error != std::errc() || rest != text.data() + text.size())
+    const double samples = samples_in(metadata, "samples");
+    if (samples == 0.0)
         throw std::invalid_argument(file + ": does not say its number of samples per pixel: give -s");
     return samples;
 }
@@ -111,9 +118,11 @@ JudgedCandidate judge_batches(const golden::Golden& golden, const std::string& f
                                       : golden::Method::welch;
     check_file(golden, file, picture.metadata, method);
     expect_independent_pictures(golden, batches, names);
-    golden::Comparison comparison = method == golden::Method::ranks
-                                        ? golden::compare(golden, candidate, method)
-                                        : golden::compare_pictures(golden, batches);
+    golden::Comparison comparison =
+        method == golden::Method::ranks
+            ? golden::compare(golden, candidate, method)
+            : golden::compare_pictures(golden, batches,
+                                       {.picture_samples = samples_in(picture.metadata, "batch_size")});
     return {std::move(comparison), candidate.film().mean(), std::move(picture.metadata),
             std::move(picture.layers)};
 }
@@ -126,6 +135,7 @@ JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<s
     const SceneMistakes of_scene = mistakes_of_scene(golden, pictures, 0.0, options);
     std::map<std::string, std::string> seeds; // and the file that has it
     images::Metadata metadata = first.metadata;
+    golden::CompareOptions levels;
     for (std::size_t i = 0; i < files.size(); ++i) {
         images::ExrPicture picture = i == 0 ? images::ExrPicture{} : read_picture(files[i], options);
         if (i > 0) {
@@ -134,6 +144,8 @@ JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<s
             metadata = picture.metadata;
         }
         check_file(golden, files[i], metadata, golden::Method::welch);
+        const double samples = options.samples ? *options.samples : samples_in(metadata, "samples");
+        levels.picture_samples = i == 0 ? samples : std::min(levels.picture_samples, samples);
         const std::string seed = value_of(metadata, "seed");
         const auto [other, is_new] = seeds.emplace(seed, files[i]);
         if (!is_new && !seed.empty())
@@ -142,7 +154,7 @@ JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<s
     }
     expect_independent_pictures(golden, pictures, files);
     const auto compared = [&](const std::vector<images::Image>& of) {
-        return golden::compare_pictures(golden, of);
+        return golden::compare_pictures(golden, of, levels);
     };
     golden::Comparison comparison = compared(pictures);
     comparison.diagnosis =
@@ -190,8 +202,6 @@ JudgedCandidate judge(const golden::Golden& golden, const std::vector<std::strin
     if (scene && files.size() > 1) throw std::invalid_argument(files[1] + ": a scene is judged alone");
     if (scene && !options.layer.empty())
         throw std::invalid_argument("--layer " + options.layer + " is for pictures, .exr");
-    if (options.samples && files.size() > 1)
-        throw std::invalid_argument("--samples is for a single picture or a scene");
     if (scene && !options.scene.empty())
         throw std::invalid_argument("--scene " + options.scene + " is for pictures, not for a scene");
     if (scene) return judge_scene(golden, files.front(), options);

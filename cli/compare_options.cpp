@@ -15,7 +15,7 @@ void add_compare_options(CLI::App& command, CompareCommand& options)
         ->expected(2, 1 << 16);
     command
         .add_option("-s,--samples", options.samples,
-                    "Samples per pixel, of a picture whose metadata lack them or of a scene")
+                    "Samples per pixel of each picture without metadata, or of a scene")
         ->check(CLI::Range(1.0, 1e12));
     command.add_option("--layer", options.layer, "Layer of the .exr files to compare [R, G and B]");
     command.add_option("--scene", options.scene,

@@ -24,6 +24,9 @@ struct CompareOptions {
     double rounding = 2e-6;   // relative difference that single precision explains
     double skewness = 0.15;   // largest |skewness| / sqrt(batches) for which a t test is conclusive
     std::vector<std::uint64_t> stages = {64, 256}; // batches of each stage
+    /// Samples per pixel of each of several pictures. 0: not known; then they are taken for as many as
+    /// in a batch of the golden (rare_events.h).
+    double picture_samples = 0.0;
 };
 
 } // namespace golden

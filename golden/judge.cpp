@@ -62,7 +62,8 @@ void Judge::judge_by_means(Finding& finding, const Candidate& candidate, const M
 {
     const PixelNoise pixels = pixel_noise(candidate, finding.functional, finding.channel);
     const MeanEstimate estimate = moderated(pictures, pixels);
-    const double event = largest_unseen_event(golden_, finding, pictures, reference, largest);
+    const double event =
+        largest_unseen_event(golden_, finding, pictures, options_.picture_samples, reference, largest);
     compare_means(finding, estimate, reference, mean_skewness(pictures, pixels, reference),
                   pictures.count, event);
     const MeanEstimate expected = mean_estimate(reference);

@@ -49,9 +49,13 @@ double largest_unseen_event(const Moments& pictures, const Moments& reference, d
 }
 
 double largest_unseen_event(const Golden& golden, const Finding& finding, const Moments& pictures,
-                            const Moments& reference, double largest)
+                            double samples, const Moments& reference, double largest)
 {
-    const double of_functional = largest_unseen_event(pictures, reference, largest);
+    const double batch_size = batch_size_of(golden);
+    const double batches_in_picture = samples > 0.0 && batch_size > 0.0 ? samples / batch_size : 1.0;
+    Moments of_batches = pictures; // the noise of as many samples as in a batch
+    of_batches.variance *= batches_in_picture;
+    const double of_functional = largest_unseen_event(of_batches, reference, largest);
     if (of_functional == 0.0) return 0.0;
     const auto c = static_cast<int>(finding.channel);
     const auto batches =
@@ -61,7 +65,8 @@ double largest_unseen_event(const Golden& golden, const Finding& finding, const 
                    [&](std::size_t i, double weight) {
                        error = std::max(error, weight * golden.standard_error.pixels[i][c]);
                    });
-    return std::min(of_functional, times_as_large * error * std::sqrt(batches * (batches - 1.0)));
+    return std::min(of_functional, times_as_large * error * std::sqrt(batches * (batches - 1.0))) /
+           batches_in_picture;
 }
 
 double least_p_of_darkness(double largest_event, double pictures, const MeanEstimate& candidate,

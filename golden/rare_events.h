@@ -48,9 +48,10 @@ bool lacks_rare_events(const Golden& golden, const Finding& finding);
 double largest_unseen_event(const Moments& pictures, const Moments& reference, double largest);
 
 /// The same, by the noise of the golden's pixels as well. In units of values_of, for the finding's
-/// functional.
+/// functional. `samples`: of a pixel of a picture; 0: as many as in a batch of the golden. With more, a
+/// sample adds less to the picture's mean, and its noise is smaller than that of a batch in any case.
 double largest_unseen_event(const Golden& golden, const Finding& finding, const Moments& pictures,
-                            const Moments& reference, double largest);
+                            double samples, const Moments& reference, double largest);
 
 /// The smallest p-value that events up to this size allow for the difference of two means, two-sided as
 /// that of welch; 0 if they cannot explain it. `pictures`: their number.

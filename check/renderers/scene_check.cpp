@@ -87,6 +87,7 @@ golden::Comparison SceneCheck::judged(const std::vector<images::Image>& pictures
 {
     golden::CompareOptions options;
     options.specification = error;
+    options.picture_samples = static_cast<double>(options_.samples);
     return pictures.size() == 1 ? golden::compare_picture(golden_, pictures.front(),
                                                           static_cast<double>(options_.samples), options)
                                 : golden::compare_pictures(golden_, pictures, options);

@@ -188,7 +188,8 @@ FewPictures measure_few_pictures(int pictures, Noise golden_noise, Noise candida
                     other.render(seed, static_cast<std::uint64_t>(i) * batches + batch, bias));
             given.push_back(film.mean());
         }
-        const golden::CompareOptions options;
+        golden::CompareOptions options;
+        options.picture_samples = static_cast<double>(batches) * golden::batch_size_of(golden);
         const golden::Comparison comparison = compare_pictures(golden, given, options);
         const std::lock_guard lock(mutex);
         result.verdicts.pass += comparison.verdict == golden::Verdict::pass;

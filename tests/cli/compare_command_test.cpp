@@ -427,7 +427,7 @@ TEST_F(CompareCommand, InputsThatCannotBeComparedAreNamedInOneLine)
         {{"compare", plain, golden_file, "-s", "0"}, "--samples"},
         {{"compare", plain, golden_file, "-s", "256", "--integrator", "path"}, "--integrator"},
         {{"compare", plain, golden_file, "-s", "256", "--device", "host"}, "--device"},
-        {{"compare", plain, plain, golden_file, "-s", "256"}, "--samples"},
+        {{"compare", plain, plain, golden_file, "-s", "256"}, "not independent"},
         {{"compare", other_size, golden_file}, "8x8"},
         {{"compare", other_scene, golden_file}, "scene"},
         {{"compare", not_a_number, golden_file, "-s", "4"}, "(3, 4)"},

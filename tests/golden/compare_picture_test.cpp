@@ -217,13 +217,14 @@ TEST_F(RareEventsOfAPilot, DoNotHideADifferenceElsewhere)
 /// bidirectional path tracing. What it differs by is the noise of the golden.
 class PicturesWithoutNoise : public golden_test::SimulatedGolden {
 protected:
-    static golden::Comparison compared(std::size_t count, double factor)
+    static golden::Comparison compared(std::size_t count, double factor, double samples = 0.0)
     {
         static const Image truth = picture(8192, 77);
+        golden::CompareOptions options = golden_test::for_small_pictures();
+        options.picture_samples = samples;
         Image image = truth;
         for (images::Rgb& pixel : image.pixels) pixel *= factor;
-        return golden::compare_pictures(reference(), std::vector<Image>(count, image),
-                                        golden_test::for_small_pictures());
+        return golden::compare_pictures(reference(), std::vector<Image>(count, image), options);
     }
 };
 
@@ -243,6 +244,15 @@ TEST_F(PicturesWithoutNoise, PassIfTheyAreEnoughToContainRareEvents)
     }
 }
 
+/// Each sample adds less to a picture of many samples, so little light can be hidden.
+TEST_F(PicturesWithoutNoise, PassIfTheyAreFewAndOfManySamples)
+{
+    const double of_a_batch = golden::batch_size_of(reference());
+    EXPECT_EQ(compared(4, 1.0005, of_a_batch).verdict, Verdict::inconclusive);
+    const Comparison many = compared(4, 1.0005, 64.0 * of_a_batch);
+    EXPECT_EQ(many.verdict, Verdict::pass) << many.reason;
+}
+
 TEST_F(PicturesWithoutNoise, FailIfLightIsMissingOrAdded)
 {
     EXPECT_EQ(compared(80, 0.95).verdict, Verdict::fail);
@@ -259,13 +269,17 @@ TEST_F(RareEventsOfAPilot, OfTheGoldenMayBeLackingInFewPicturesAndNotInMany)
     for (std::uint64_t batch = 0; batch < 256; ++batch)
         maker.add_batch(grey(1.0, calibration::mix(batch) % 3 == 0 ? 3.0 : 0.0));
     const golden::Golden golden = maker.golden({{"batch_size", "4"}});
-    const auto verdict = [&](std::size_t count) {
-        return golden::compare_pictures(golden, std::vector<Image>(count, grey(1.0, 0.0)));
+    const auto verdict = [&](std::size_t count, double samples = 0.0) {
+        golden::CompareOptions options;
+        options.picture_samples = samples;
+        return golden::compare_pictures(golden, std::vector<Image>(count, grey(1.0, 0.0)), options);
     };
     // Each picture has a third of an event, which adds at most four times what the golden's adds.
     EXPECT_GT(verdict(16).p, 0.05) << verdict(16).reason;
     EXPECT_NE(verdict(64).verdict, Verdict::fail) << verdict(64).reason;
     EXPECT_EQ(verdict(256).verdict, Verdict::fail) << verdict(256).reason;
+    EXPECT_GT(verdict(16, 4.0).p, 0.05) << verdict(16, 4.0).reason;
+    EXPECT_LT(verdict(16, 64.0).p, 1e-8) << verdict(16, 64.0).reason; // as 256 of 4
 }
 
 /// Whatever limits it, the number that is said to be enough is larger than that of the pictures.
