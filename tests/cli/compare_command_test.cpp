@@ -94,6 +94,18 @@ TEST_F(CompareCommand, SeveralIndependentPicturesPass)
     }
     const Outcome outcome = compare(files);
     EXPECT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+
+    // The same as of a renderer that writes no metadata. Eight pictures of few samples might lack rare
+    // bright ones.
+    for (std::string& file : files) {
+        const images::Image image = images::read_exr(file).mean;
+        file += ".pfm";
+        images::write_pfm(file, image);
+    }
+    const Outcome unknown = compare(files);
+    EXPECT_EQ(unknown.status, 3) << unknown.out;
+    EXPECT_NE(unknown.out.find("give -s"), std::string::npos) << unknown.out;
+    EXPECT_EQ(compare(files, {"-s", "512"}).status, 0);
 }
 
 TEST_F(CompareCommand, ADimmerPictureFails)
