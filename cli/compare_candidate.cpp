@@ -157,14 +157,14 @@ JudgedCandidate judge_pictures(const golden::Golden& golden, const std::vector<s
         return golden::compare_pictures(golden, of, levels);
     };
     golden::Comparison comparison = compared(pictures);
-    comparison.diagnosis =
-        golden::diagnose(golden, comparison, pictures, levels.picture_samples, compared,
-                         of_scene.explain, of_scene.more);
+    comparison.diagnosis = golden::diagnose(golden, comparison, pictures, levels.picture_samples,
+                                            compared, of_scene.explain, of_scene.more);
     const bool may_hide = std::ranges::any_of(
         comparison.findings, [](const golden::Finding& finding) { return finding.hidden > 0.0; });
     if (comparison.verdict == golden::Verdict::inconclusive && may_hide && levels.picture_samples == 0.0)
-        comparison.reason += " The files do not say their samples per pixel: give -s, and fewer pictures "
-                             "may be enough.";
+        comparison.reason +=
+            " The files do not say their samples per pixel: give -s, and fewer pictures "
+            "may be enough.";
     images::Film film(golden.mean.width, golden.mean.height);
     for (const images::Image& picture : pictures) film.add_batch(picture);
     return {std::move(comparison), film.mean(), std::move(first.metadata), std::move(first.layers)};
