@@ -32,11 +32,16 @@ def options(arguments):
     return parser.parse_args(arguments)
 
 
+def course_scenes():
+    """Their folder; one that does not exist if $PLUMBLINE_SHARED does not name it."""
+    return os.path.join(os.environ.get("PLUMBLINE_SHARED") or "/nowhere", "scenes")
+
+
 def missing_need(figure, root):
     """What this machine lacks for a figure, or why ./run figures does not draw it; "" if it can."""
     if figure.drawn_by:
         return f"drawn by {figure.drawn_by}, with what it measures"
-    if "course scenes" in figure.needs and not os.path.isdir(os.path.join(os.environ.get("PLUMBLINE_SHARED", ""), "scenes")):
+    if "course scenes" in figure.needs and not os.path.isdir(course_scenes()):
         return "it needs the course scenes, in the folder scenes/ of $PLUMBLINE_SHARED"
     if "chromium" in figure.needs and not shutil.which("chromium"):
         return "it needs chromium"
@@ -55,7 +60,7 @@ def draw(figure, root, scratch):
     environment = {**os.environ, "images": images, "scratch": own,
                    "plumbline": os.path.abspath(os.environ.get("PLUMBLINE", os.path.join(root, "build/release/plumbline"))),
                    "figures": os.path.join(root, "build/release/docs/figures"),
-                   "course": os.path.join(os.environ.get("PLUMBLINE_SHARED", ""), "scenes")}
+                   "course": course_scenes()}
     helpers = os.path.join(os.path.dirname(os.path.abspath(__file__)), "screenshot.sh")
     ran = subprocess.run(["bash", "-euo", "pipefail", "-c", f'source "{helpers}"\n{figure.draw}'], cwd=root, env=environment,
                          stdin=subprocess.DEVNULL, capture_output=True, text=True)

@@ -138,6 +138,18 @@ class Figures(unittest.TestCase):
         self.expect(0, "Not checked: dot: docs/data.json is missing, which ./run measure dot writes", "--check")
         self.expect(2, "docs/data.json is missing", "--check", "dot")
 
+    def test_needs_the_course_scenes_and_takes_no_others(self):
+        os.makedirs(os.path.join(self.root, "scenes"))
+        self.table(DOT + "needs = ['course scenes']")
+        for shared in (None, "", os.path.join(self.root, "docs")):
+            os.environ.pop("PLUMBLINE_SHARED", None)
+            if shared is not None:
+                os.environ["PLUMBLINE_SHARED"] = shared
+            with contextlib.chdir(self.root):
+                status, out = self.run_figures("--check")
+            self.assertEqual(status, 0)
+            self.assertIn("course scenes", out)
+
     def test_keeps_what_is_drawn_of_a_walk(self):
         point = {"parameter": 1 / 3, "cases": 4, "errors": 3, "median": 0.0, "largest": 1 / 3, "failures": {}, "refusal": "",
                  "notice": "n", "not_walked": ""}
