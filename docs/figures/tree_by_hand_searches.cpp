@@ -69,6 +69,18 @@ void draw_range(Svg& svg, const Columns& columns, const explain::NodeSearch& nod
     svg.label(columns.x(node.i), y + 4, std::to_string(node.i), svg_blue, 12);
 }
 
+/// The line above the row of a node and its name, with the delta that its search exceeds. Returns the
+/// row's y.
+int begin_row(Svg& svg, const Columns& columns, const explain::NodeSearch& node, int height,
+              int exceeded)
+{
+    const int y = top_margin + static_cast<int>(node.i) * height + 16;
+    svg.line(8, y - 22, columns.width() - 8, y - 22, "#d5d9df");
+    svg.label(8, y + 4, "node " + std::to_string(node.i) + ", > " + std::to_string(of_code(exceeded)),
+              "black", 12, "start");
+    return y;
+}
+
 } // namespace
 
 std::string draw_ranges(const EightKeys& keys)
@@ -79,11 +91,7 @@ std::string draw_ranges(const EightKeys& keys)
     Svg svg;
     draw_columns(svg, keys, columns, height);
     for (const explain::NodeSearch& node : keys.searches) {
-        const int y = top_margin + static_cast<int>(node.i) * row + 16;
-        svg.line(8, y - 22, columns.width() - 8, y - 22, "#d5d9df");
-        svg.label(8, y + 4,
-                  "node " + std::to_string(node.i) + ", > " + std::to_string(of_code(node.delta_min)),
-                  "black", 12, "start");
+        const int y = begin_row(svg, columns, node, row, node.delta_min);
         svg.label(left_margin - 10, y + 4, "l_max", svg_grey, 11, "end");
         svg.label(left_margin - 10, y + sub_row + 4, "t", svg_grey, 11, "end");
         svg.label(left_margin - 10, y + 2 * sub_row + 4, "range", svg_grey, 11, "end");
@@ -102,11 +110,7 @@ std::string draw_splits(const EightKeys& keys)
     Svg svg;
     draw_columns(svg, keys, columns, height);
     for (const explain::NodeSearch& node : keys.searches) {
-        const int y = top_margin + static_cast<int>(node.i) * row + 16;
-        svg.line(8, y - 22, columns.width() - 8, y - 22, "#d5d9df");
-        svg.label(8, y + 4,
-                  "node " + std::to_string(node.i) + ", > " + std::to_string(of_code(node.delta_node)),
-                  "black", 12, "start");
+        const int y = begin_row(svg, columns, node, row, node.delta_node);
         svg.label(left_margin - 10, y + 4, "t", svg_grey, 11, "end");
         svg.label(left_margin - 10, y + sub_row + 4, "split", svg_grey, 11, "end");
         draw_probes(svg, columns, node.split, y);
