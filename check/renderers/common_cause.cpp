@@ -68,14 +68,6 @@ std::vector<Described> with_two_features(const std::vector<Described>& single)
     return sets;
 }
 
-std::string joined(const Names& names)
-{
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
-    return text;
-}
-
 std::string all_scenes(std::size_t count)
 {
     if (count == 1) return "The only scene";
@@ -84,7 +76,7 @@ std::string all_scenes(std::size_t count)
 
 std::string exactly(const Described& set, std::size_t failed, std::size_t passed)
 {
-    return all_scenes(failed) + " with " + joined(set.names) +
+    return all_scenes(failed) + " with " + joined(set.names, " or ") +
            (failed == 1 ? " fails, and " : " fail, and ") +
            (passed == 1 ? "the only other one passes."
                         : "the " + std::to_string(passed) + " others pass.");
@@ -101,6 +93,14 @@ double chance_of_containment(std::size_t failed, std::size_t marked, std::size_t
 }
 
 } // namespace
+
+std::string joined(const std::vector<std::string>& names, const char* last)
+{
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == names.size() ? last : ", ") + names[i];
+    return text;
+}
 
 std::vector<std::string> common_causes(const std::vector<Judged>& scenes)
 {
@@ -130,7 +130,8 @@ std::vector<std::string> common_causes(const std::vector<Judged>& scenes)
             smallest = &set;
     if (smallest == nullptr) return {};
     return {"All " + std::to_string(failed) + " failing scenes are among the " +
-            std::to_string(size_of(smallest->scenes)) + " with " + joined(smallest->names) + "."};
+            std::to_string(size_of(smallest->scenes)) + " with " + joined(smallest->names, " or ") +
+            "."};
 }
 
 } // namespace check

@@ -25,4 +25,7 @@ struct Judged {
 /// most 1 of 100 cases, all sets of scenes that are tried together. Empty if nothing holds.
 std::vector<std::string> common_causes(const std::vector<Judged>& scenes);
 
+/// "a, b or c", with " or " for `last`, which stands before the last name.
+std::string joined(const std::vector<std::string>& names, const char* last);
+
 } // namespace check

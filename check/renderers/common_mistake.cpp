@@ -1,5 +1,6 @@
 #include "check/renderers/common_mistake.h"
 
+#include "check/renderers/common_cause.h"
 #include "check/renderers/renderer_results.h"
 #include "golden/explain.h"
 #include "images/families.h"
@@ -91,14 +92,6 @@ void name_mistake(SceneCheck& scene, const std::string& sentence)
     scene.set_diagnosis(scene.diagnosis().empty() ? sentence : sentence + " Or: " + scene.diagnosis());
 }
 
-std::string joined_names(const std::vector<std::string>& names, const char* last)
-{
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == names.size() ? last : ", ") + names[i];
-    return text;
-}
-
 /// The sentence about `explained` of all scenes with a wrong picture.
 std::string say_common(const golden::FoundMistake& mistake, const std::vector<std::string>& explained,
                        std::size_t wrong)
@@ -108,9 +101,9 @@ std::string say_common(const golden::FoundMistake& mistake, const std::vector<st
     if (explained.size() == wrong)
         text += wrong == 2 ? "both scenes with a wrong picture" : "all " + of;
     else
-        text += std::to_string(explained.size()) + " of the " + of + " (" +
-                joined_names(explained, " and ") + ")";
-    return text + ": your picture is " + joined_names(mistake.named, ", or ") + ".";
+        text +=
+            std::to_string(explained.size()) + " of the " + of + " (" + joined(explained, " and ") + ")";
+    return text + ": your picture is " + joined(mistake.named, ", or ") + ".";
 }
 
 } // namespace
