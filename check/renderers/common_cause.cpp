@@ -76,7 +76,7 @@ std::string all_scenes(std::size_t count)
 
 std::string exactly(const Described& set, std::size_t failed, std::size_t passed)
 {
-    return all_scenes(failed) + " with " + joined(set.names, " or ") +
+    return all_scenes(failed) + " with " + name_list(set.names, " or ") +
            (failed == 1 ? " fails, and " : " fail, and ") +
            (passed == 1 ? "the only other one passes."
                         : "the " + std::to_string(passed) + " others pass.");
@@ -94,7 +94,7 @@ double chance_of_containment(std::size_t failed, std::size_t marked, std::size_t
 
 } // namespace
 
-std::string joined(const std::vector<std::string>& names, const char* last)
+std::string name_list(const std::vector<std::string>& names, const char* last)
 {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -130,7 +130,7 @@ std::vector<std::string> common_causes(const std::vector<Judged>& scenes)
             smallest = &set;
     if (smallest == nullptr) return {};
     return {"All " + std::to_string(failed) + " failing scenes are among the " +
-            std::to_string(size_of(smallest->scenes)) + " with " + joined(smallest->names, " or ") +
+            std::to_string(size_of(smallest->scenes)) + " with " + name_list(smallest->names, " or ") +
             "."};
 }
 

@@ -26,6 +26,6 @@ struct Judged {
 std::vector<std::string> common_causes(const std::vector<Judged>& scenes);
 
 /// "a, b or c", with " or " for `last`, which stands before the last name.
-std::string joined(const std::vector<std::string>& names, const char* last);
+std::string name_list(const std::vector<std::string>& names, const char* last);
 
 } // namespace check

@@ -101,9 +101,9 @@ std::string say_common(const golden::FoundMistake& mistake, const std::vector<st
     if (explained.size() == wrong)
         text += wrong == 2 ? "both scenes with a wrong picture" : "all " + of;
     else
-        text +=
-            std::to_string(explained.size()) + " of the " + of + " (" + joined(explained, " and ") + ")";
-    return text + ": your picture is " + joined(mistake.named, ", or ") + ".";
+        text += std::to_string(explained.size()) + " of the " + of + " (" +
+                name_list(explained, " and ") + ")";
+    return text + ": your picture is " + name_list(mistake.named, ", or ") + ".";
 }
 
 } // namespace

@@ -72,6 +72,27 @@ if command -v clang-format >/dev/null; then
     expect pass format.sh golden/a.h 'int f();'
     expect fail format.sh golden/a.h 'int   f( ) ;'
 fi
+if command -v clang-tidy >/dev/null; then
+    # expect_tidy VERDICT CONFIGURATION CONTENT: tidy.sh on one file of this content
+    expect_tidy() {
+        local verdict=pass
+        printf '%s\n' "$2" >"$root/.clang-tidy"
+        printf '%s\n' "$3" >"$root/tidy/a.cpp"
+        bash "$here/tidy.sh" "$root" "$root" a >/dev/null 2>&1 || verdict=fail
+        if [ "$verdict" != "$1" ]; then
+            echo "tidy.sh should $1 with the configuration: $2, on: $3"
+            failures=$((failures + 1))
+        fi
+    }
+    mkdir "$root/tidy"
+    printf '[{"directory": "%s", "file": "tidy/a.cpp", "command": "c++ -c tidy/a.cpp"}]\n' "$root" >"$root/compile_commands.json"
+    checked=$'Checks: "-*,modernize-use-nullptr"\nWarningsAsErrors: "*"'
+    expect_tidy pass "$checked" 'int* p = nullptr;'
+    expect_tidy fail "$checked" 'int* p = 0;'
+    expect_tidy fail "no comment"$'\n'"$checked" 'int* p = nullptr;'
+    expect_tidy fail "$checked" 'typedef int number;'
+    rm -r "$root/tidy" "$root/compile_commands.json" "$root/.clang-tidy"
+fi
 if command -v nvcc >/dev/null; then
     # Its own compiler instead of the c++ that expect passes.
     printf '#pragma once\n__device__ inline int f() { return threadIdx.x; }\n' >"$root/cuda/a.cuh"
