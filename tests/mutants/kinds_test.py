@@ -22,6 +22,7 @@ class Kinds(unittest.TestCase):
 
     def test_plus_minus(self):
         self.expect("plus_minus", "x = a + b;\ny -= -a;", "x = a - b;", "y += -a;")
+        self.expect("plus_minus", "for (int i = 0; i < s; i += 2) g();")  # it would not end
 
     def test_times_over(self):
         body = "const double* const p = &a;\nx = a * *p / b;"

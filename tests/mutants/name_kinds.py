@@ -1,7 +1,7 @@
 """The kinds of mutants that take one name or index for another; edits as in operator_kinds.py."""
 
 from operands import end_of_operand, still_used
-from operator_kinds import binary, ends_operand
+from operator_kinds import binary, ends_operand, in_head_of_for
 
 PAIRS = (
     "s t|light eye|lower upper|left right|pdf_fwd pdf_rev|eta_i eta_t|wo wi|wo_local wi_local|near far|first last|e1 e2|"
@@ -23,7 +23,7 @@ def off_by_one(source, types):
         if texts[i] == "[" and ends_operand(source, i - 1) and not is_declared(source, i - 1):
             yield from _index(source, i)
         first = texts[i + 1]
-        if texts[i] == "=" and first in ("0", "1", "2") and texts[i + 2] == ";" and _in_head_of_for(source, i):
+        if texts[i] == "=" and first in ("0", "1", "2") and texts[i + 2] == ";" and in_head_of_for(source, i):
             yield tokens[i + 1].start, tokens[i + 1].end, "1" if first == "0" else str(int(first) - 1)
 
 
@@ -36,12 +36,6 @@ def _index(source, i):
             yield source.tokens[i + 1].start, source.tokens[i + 1].end, str(n - 1 if n > 0 else 1)
     elif end_of_operand(source, i + 1) == close and texts[i + 1] != "!":
         yield source.tokens[close].start, source.tokens[close].start, " + 1"
-
-
-def _in_head_of_for(source, i):
-    while i > 0 and source.texts[i] not in (";", "{", "}", "("):
-        i -= 1
-    return source.texts[i - 1 : i + 1] == ["for", "("]
 
 
 def is_declared(source, i):

@@ -15,6 +15,12 @@ def ends_operand(source, i):
     return (token.kind in ("name", "number") and token.text != "return") or token.text in (")", "]")
 
 
+def in_head_of_for(source, i):
+    while i > 0 and source.texts[i] not in ("(", "{", "}"):
+        i = source.partner[i] - 1 if source.texts[i] in (")", "]") else i - 1
+    return source.texts[i - 1 : i + 1] == ["for", "("]
+
+
 def binary(source, operators):
     """The indices of these operators between two operands."""
     for i in range(1, len(source.tokens) - 1):
@@ -24,6 +30,8 @@ def binary(source, operators):
 
 def exchange(source, operators):
     for i in binary(source, operators):
+        if source.texts[i].endswith("=") and source.texts[i] not in ("==", "!=") and in_head_of_for(source, i):
+            continue  # of `i += 2`: the loop would not end
         yield source.tokens[i].start, source.tokens[i].end, operators[source.texts[i]]
 
 
