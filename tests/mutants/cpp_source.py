@@ -3,6 +3,7 @@ out. Comments, strings and preprocessor lines are no tokens of an expression, an
 except the values of constants."""
 
 import bisect
+import collections
 import re
 from typing import NamedTuple
 
@@ -47,6 +48,10 @@ class Source:
             if m.lastgroup not in ("space", "comment", "directive")
         ]
         self.texts = [token.text for token in self.tokens]
+        self.places = collections.defaultdict(list)  # the indices of each name
+        for i, token in enumerate(self.tokens):
+            if token.kind == "name":
+                self.places[token.text].append(i)
         self.line_starts = [0] + [m.end() for m in re.finditer("\n", text)]
         self._match_brackets()
         self._find_functions()

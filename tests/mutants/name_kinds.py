@@ -31,8 +31,8 @@ def _index(source, i):
     texts, close = source.texts, source.partner[i]
     if close == i + 2 and texts[i + 1].isdigit():
         n = int(texts[i + 1])
-        words = " ".join(texts)
-        if n > 0 or f" {texts[i - 1]} [ 1 ]" in words:
+        with_one = (texts[j + 1 : j + 4] == ["[", "1", "]"] for j in source.places[texts[i - 1]])
+        if n > 0 or any(with_one):
             yield source.tokens[i + 1].start, source.tokens[i + 1].end, str(n - 1 if n > 0 else 1)
     elif end_of_operand(source, i + 1) == close and texts[i + 1] != "!":
         yield source.tokens[close].start, source.tokens[close].start, " + 1"
@@ -60,8 +60,7 @@ def _exchange_names(source, partners, members_only):
         if texts[i - 1] == "::" or (texts[i + 1] == "(" and not is_member) or (members_only and not is_member):
             continue
         head, _, last = source.bodies[source.function[i]] if source.function[i] >= 0 else (i, i, i)
-        where = texts if is_member else texts[head:last]
-        there = {(where[j - 1] in (".", "->")) for j in range(1, len(where)) if where[j] == other}
+        there = {texts[j - 1] in (".", "->") for j in source.places[other] if is_member or head <= j < last}
         if (is_member if members_only else is_member in there) and still_used(source, i, i + 1):
             yield source.tokens[i].start, source.tokens[i].end, other
 

@@ -131,7 +131,8 @@ def still_used(source, first, end):
         return True
     head, _, last = source.bodies[number]
     for name in {source.texts[i] for i in range(first, end) if source.tokens[i].kind == "name"}:
-        uses = [i for i in range(head, last) if source.texts[i] == name and source.texts[i - 1] not in (".", "->", "::")]
+        here = (i for i in source.places[name] if head <= i < last)
+        uses = [i for i in here if source.texts[i - 1] not in (".", "->", "::")]
         declared = any(
             (source.tokens[i - 1].kind == "name" or source.texts[i - 1] in ("&", "*", ">"))
             and source.texts[i - 1] not in ("return", "else")
