@@ -68,7 +68,7 @@ def parse(name, text):
     """The mutant of a patch with a head. Raises ValueError with one sentence if the head is not as described above."""
     head, empty_line, diff = text.partition("\n\n")
     lines = [line.partition(": ") for line in head.splitlines()]
-    if wrong := [key + colon for key, colon, _ in lines if not colon or key not in KEYS]:
+    if wrong := [key for key, colon, _ in lines if not colon or key not in KEYS]:
         raise ValueError(f"{name}.patch: unknown key {wrong[0]!r} (there are {', '.join(KEYS)})")
     values = {key: value.strip() for key, _, value in lines}
     if len(values) < len(lines):
