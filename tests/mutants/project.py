@@ -24,7 +24,9 @@ class Project:
 
     def commands_to_build(self, folder, preset, program):
         built = folder / "build" / preset
-        configure = ["cmake", "--preset", preset, "-DPLUMBLINE_CUDA=OFF"]
+        # The build does not ask a program for its tests: with a mutant it may crash, which is a kill and no error of the build.
+        listing = "-DCMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE=PRE_TEST"
+        configure = ["cmake", "--preset", preset, "-DPLUMBLINE_CUDA=OFF", listing]
         compile_program = ["cmake", "--build", str(built), "--target", program, "-j", str(self.builders)]
         # Once there are build rules, ninja configures again by itself when it must.
         return [compile_program] if (built / "build.ninja").is_file() else [configure, compile_program]

@@ -33,14 +33,10 @@ class Unchanged:
         """(preset, program) of what must still be measured for these mutants, with the tests: None stands for all."""
         wanted = {}
         for mutant in mutants:
-            if is_test_program(mutant.programs[0]) or any(map(is_test_program, mutant.programs)):
-                for program in filter(is_test_program, mutant.programs):
-                    wanted[("release", program)] = None
             for program in mutant.programs:
-                if not is_test_program(program):
-                    wanted.setdefault((mutant.preset, program), []).extend(mutant.fails)
-                    wanted.setdefault(("release", program), []).extend(mutant.passes)
-                elif mutant.preset != "release":  # slow: only the tests that are needed
+                if is_test_program(program):
+                    wanted["release", program] = None
+                if mutant.preset != "release" or not is_test_program(program):  # slow, or no list: only what is needed
                     wanted.setdefault((mutant.preset, program), []).extend(mutant.fails)
         return {key: tests for key, tests in wanted.items() if self._lacks(key, tests)}
 
