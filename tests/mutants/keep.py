@@ -7,7 +7,7 @@ import os
 import threading
 
 
-class Outcome(enum.StrEnum):
+class Outcome(str, enum.Enum):
     KILLED = "killed"
     CRASH = "killed by a crash"
     TIMEOUT = "killed by time-out"

@@ -61,7 +61,7 @@ def chosen(arguments, error):
         error(str(wrong))
 
 
-def try_chosen(project, mutants, jobs, all_tests=False, again=False, out=sys.stdout, status=sys.stderr):
+def try_chosen(project, mutants, jobs, all_tests=False, again=False, out=None, status=None):
     """(results in the order of `mutants`, Unchanged). Raises Unusable."""
     sources = digest(project.root)
     unchanged = Unchanged(project, sources)
@@ -70,8 +70,8 @@ def try_chosen(project, mutants, jobs, all_tests=False, again=False, out=sys.std
     waiting = [m for m in mutants if m.name not in known]
     width = max((len(m.name) for m in mutants), default=0)
     for result in known.values():
-        print(line(result, width) + ", known", file=out, flush=True)
-    progress = Progress(len(waiting), len(mutants), width, out, status)
+        print(line(result, width) + ", known", file=out or sys.stdout, flush=True)
+    progress = Progress(len(waiting), len(mutants), width, out or sys.stdout, status or sys.stderr)
     try:
         workers.measure(project, unchanged, waiting, jobs, progress.say)
         for mutant, result in workers.try_all(project, unchanged, waiting, jobs, all_tests):

@@ -1,13 +1,12 @@
 """What the runner says while it works: one line for each mutant, and on a terminal what remains."""
 
-import sys
 import time
 
 
 class Progress:
     """`waiting`: how many mutants are still to be tried; `all_of_them`: with those whose result is known."""
 
-    def __init__(self, waiting, all_of_them, width, out=sys.stdout, status=sys.stderr):
+    def __init__(self, waiting, all_of_them, width, out, status):
         self.waiting, self.all, self.width, self.out = waiting, all_of_them, width, out
         self.status = status if status.isatty() else None
         self.done, self.begin = all_of_them - waiting, time.monotonic()

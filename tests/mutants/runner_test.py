@@ -25,7 +25,7 @@ class Runner(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.project = Toy(temporary.name)
-        limit = mock.patch.object(trial, "most_seconds", lambda measured: 0.5 if self.short else 20)
+        limit = mock.patch.object(trial, "most_seconds", lambda measured: 3 if self.short else 60)
         limit.start()
         self.addCleanup(limit.stop)
         self.short = False
