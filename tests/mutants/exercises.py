@@ -75,6 +75,8 @@ def main(argv):
         chosen = exercises(arguments.name)
     except KeyError as error:
         parser.error(f"there is no exercise {error}")
+    except ValueError as error:
+        parser.error(str(error))
     project = Project(builders=arguments.jobs)
     copy = project.copy(0)
     copy.bring_up_to_date()

@@ -5,6 +5,7 @@ What a mutant is: mutant.py. How one is tried: trial.py.
 
 import argparse
 import datetime
+import os
 import pathlib
 import platform
 import signal
@@ -134,6 +135,9 @@ def guarded(main_function, name):
     signal.signal(signal.SIGTERM, _interrupted)
     try:
         return main_function(sys.argv[1:])
+    except BrokenPipeError:  # of a list into `head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return OK
     except (Unusable, RuntimeError, OSError) as error:
         print(f"{name}: {error}", file=sys.stderr)
         return NOT_FINE

@@ -2,6 +2,8 @@
 
 import os
 import pathlib
+import re
+import signal
 
 import gtest
 import processes
@@ -50,6 +52,7 @@ class Project:
             if ended.status is None:
                 return f"the build of {program} was stopped after {BUILD_SECONDS} seconds"
             if ended.status != 0:
+                _refuse_a_full_machine(program, ended.output)
                 lines = [line for line in ended.output.splitlines() if "error" in line.lower()] or ended.output.splitlines()
                 return "\n".join(line[:300] for line in lines[:LINES_OF_ERROR]) or f"exit status {ended.status}"
         return "" if self.path_of(folder, preset, program) else f"{program} is no program that the build makes"
@@ -60,10 +63,19 @@ class Project:
         scratch.mkdir(parents=True, exist_ok=True)
         # Properties draw the same inputs in every run. ThreadSanitizer needs an address space without a limit.
         environment = {"RC_PARAMS": "seed=1", "TMPDIR": str(scratch), "TEST_TMPDIR": str(scratch), "GTEST_COLOR": "no"}
-        megabytes = 0 if preset == "tsan" else _megabytes_of_machine() // 2
+        megabytes = 0 if preset == "tsan" else _megabytes_of_machine() // 4
         path = self.path_of(folder, preset, program)
         place = folder / "build" / preset
-        return processes.run([path, *arguments], place if place.is_dir() else folder, seconds, environment, megabytes)
+        ended = processes.run([path, *arguments], place if place.is_dir() else folder, seconds, environment, megabytes)
+        if ended.status == -signal.SIGKILL:
+            raise RuntimeError(f"something else ended {program}: is there too little memory for so many workers?")
+        return ended
+
+
+def _refuse_a_full_machine(program, output):
+    """A build that fails for want of memory or of room on the disk says nothing about the mutant."""
+    if found := re.search(r"No space left on device|Killed signal terminated program \w+", output):
+        raise RuntimeError(f"the build of {program} failed: {found[0]}")
 
 
 def _megabytes_of_machine():

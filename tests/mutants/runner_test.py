@@ -134,6 +134,12 @@ class Starts(Runner):
         self.run_mutants(first, again=True)
         self.assertEqual(len(self.project.ran), 2)
 
+    def test_a_full_disk_is_no_outcome(self):
+        full = toy_mutant("full", "echo $(($1 - $2) # No space left on device")
+        with self.assertRaisesRegex(RuntimeError, "the build of test_toy failed: No space left on device"):
+            self.run_mutants(full)
+        self.assert_restored()
+
     def test_other_sources_are_tried_again(self):
         made = toy_mutant("minus", MINUS)
         self.run_mutants(made)

@@ -36,7 +36,7 @@ done
 echo "[==========] $count tests from 2 test suites ran. (1 ms total)"
 exit $status
 """,
-    "build.sh": "echo built >>build/log\nsh -n ref/sum/sum.sh 2>build/errors || { echo \"error: $(cat build/errors)\"; exit 1; }\n"
+    "build.sh": "echo built >>build/log\nsh -n ref/sum/sum.sh 2>build/errors || { echo \"error: $(cat build/errors ref/sum/sum.sh)\"; exit 1; }\n"
     "mkdir -p build/release\ncat ref/sum/sum.sh tests/toy.sh >build/release/test_toy\nchmod +x build/release/test_toy\n",
 }
 
