@@ -1,6 +1,6 @@
 """Draws the gallery of bugs: ./run gallery [NAME...]
 
-Each mutant that has a line Picture is applied to a copy of the sources, `plumbline` is built, and renders the scene as that
+Each mutant that has a line Cause is applied to a copy of the sources, `plumbline` is built, and renders the scene as that
 line says, with the same seed as the right program. The pictures are docs/images/bug_NAME.png. The sections of docs/bugs.md are
 written from the heads of the mutants; gallery_page.py, an ordinary test, verifies that they are up to date.
 """
@@ -81,14 +81,14 @@ def draw_mutant(renderer, made, right, folder):
 
 def main(argv):
     parser = argparse.ArgumentParser(prog="./run gallery", description="Draws the pictures of docs/bugs.md from the mutants, and writes its sections.")
-    parser.add_argument("name", nargs="*", help="a mutant that has a line Picture; default: all")
+    parser.add_argument("name", nargs="*", help="a mutant that has a line Cause; default: all")
     names = parser.parse_args(argv).name
     try:
-        chosen = [made for made in mutant.kept(names) if made.picture or names]
+        chosen = [made for made in mutant.kept(names) if made.cause or names]
     except KeyError as error:
         parser.error(f"there is no mutant {error}")
-    if without := [made.name for made in chosen if not made.picture]:
-        parser.error(f"{without[0]} has no line Picture")
+    if without := [made.name for made in chosen if not made.cause]:
+        parser.error(f"{without[0]} has no line Cause")
     project = Project(builders=workers.processors())
     copy = project.copy(0)
     copy.bring_up_to_date()

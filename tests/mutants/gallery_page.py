@@ -1,4 +1,4 @@
-"""The sections of docs/bugs.md, from the heads of the mutants that have a line Picture. Alone, this verifies that the page is
+"""The sections of docs/bugs.md, from the heads of the mutants that have a line Cause. Alone, this verifies that the page is
 up to date and that each picture is there: prints what is wrong, and exits with 1 if anything is.
 """
 
@@ -42,7 +42,7 @@ def section(made):
 
 
 def sections(mutants):
-    pictured = sorted((made for made in mutants if made.picture), key=lambda made: made.title)
+    pictured = sorted((made for made in mutants if made.cause), key=lambda made: made.title)
     return "\n\n".join(["\n".join(index(pictured)), *(part for made in pictured for part in section(made))])
 
 
@@ -59,7 +59,7 @@ def faults():
     if written(page, mutants) != page:
         yield "the heads of the mutants say something else (./run gallery writes the page)"
     for made in mutants:
-        if made.picture and not (mutant.ROOT / "docs" / "images" / f"bug_{made.name}.png").is_file():
+        if made.cause and not (mutant.ROOT / "docs" / "images" / f"bug_{made.name}.png").is_file():
             yield f"there is no picture of {made.name} (./run gallery draws it)"
 
 

@@ -10,8 +10,8 @@ writes it. The keys:
     Fails:     tests that must fail with it, the cheapest first, separated by commas; gtest's wildcards are allowed
     Passes:    (may be absent) tests of the first program that must pass in spite of it
     Sanitizer: (may be absent) "thread": Fails needs a build with ThreadSanitizer. Passes are run without it
-    Picture:   (may be absent) arguments of `plumbline render` for a picture that shows it: it is in the gallery
-    Cause:     (needed with Picture) a paragraph on cause and cure, in one line of Markdown
+    Picture:   (may be absent) arguments of `plumbline render` for a picture that shows it
+    Cause:     (may be absent) a paragraph on cause and cure, in one line of Markdown. With it, the picture is in the gallery
     Removed:   (exercises only) what the patch takes away: it completes "without ..."
 
 For a program that is no test program (its name does not begin with test_), Fails and Passes are its arguments. The generator
@@ -79,8 +79,8 @@ def parse(name, text):
         raise ValueError(f"{name}.patch: has no {missing[0]}")
     if not empty_line or not re.search(r"^\+\+\+ b/\S", diff, re.MULTILINE):
         raise ValueError(f"{name}.patch: has no change (--- a/..., +++ b/...) after an empty line")
-    if ("Picture" in values) != ("Cause" in values):
-        raise ValueError(f"{name}.patch: Picture and Cause come together, for the gallery")
+    if "Cause" in values and "Picture" not in values:
+        raise ValueError(f"{name}.patch: Cause is for the gallery, and needs Picture")
     if values.get("Sanitizer", "") not in PRESETS:
         raise ValueError(f"{name}.patch: unknown sanitizer {values['Sanitizer']} (there is thread)")
 
