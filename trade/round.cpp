@@ -63,9 +63,12 @@ Seconds process_clock()
 std::optional<Plan> plan_for(double seconds, const MakeRenderer& make, std::uint64_t seed,
                              const Clock& clock, const std::function<bool()>& stop)
 {
+    const double start = clock().wall;
+    // The first batch of all, which is not measured, may take many times as long as the next ones: its
+    // code and its memory are touched for the first time.
+    if (!make(1, seed)->render_batch(0, {{}, stop})) return std::nullopt;
     // Batches of 1, 2, 4, ... samples, so that a device that is slow at small batches is planned by its
     // speed at large ones.
-    const double start = clock().wall;
     double per_sample = 0.0;
     constexpr std::uint32_t largest = 1U << 20;
     for (std::uint32_t batch_size = 1; batch_size <= largest; batch_size *= 2) {

@@ -40,7 +40,8 @@ struct Plan {
 constexpr std::uint64_t fewest_batches = 4;
 constexpr std::uint64_t most_batches = 32; // about: enough for the statistics of a round
 
-/// A plan that takes about `seconds` on the wall, found by rendering for about a quarter of that time.
+/// A plan that takes about `seconds` on the wall, found by rendering for about a quarter of that time,
+/// and at least two samples per pixel.
 /// It has fewest_batches at least, even where they take longer. None if `stop` returned true.
 std::optional<Plan> plan_for(double seconds, const MakeRenderer& make, std::uint64_t seed,
                              const Clock& clock, const std::function<bool()>& stop);

@@ -90,8 +90,8 @@ private:
             const auto found =
                 plan_for(share, configurations_[i].make, seed_of(options_, 0), clock_, monitor_.stop);
             if (!found) return false;
-            // One sample took no longer than the search for the plan.
-            const double fewest = (clock_().wall - start) * static_cast<double>(fewest_batches);
+            // The search for the plan rendered two samples at least.
+            const double fewest = (clock_().wall - start) / 2.0 * static_cast<double>(fewest_batches);
             if (found->batches == fewest_batches && found->batch_size == 1 &&
                 fewest > 0.5 * options_.seconds)
                 measured_[i].problem = too_slow(fewest);

@@ -1,33 +1,21 @@
 """The cheap half of the check of docs/exercises.md; ./run exercises does the other half.
 
-Every patch of tests/exercises/ applies to the sources, every test that it names exists, and the page has each exercise,
-with all of these tests in its answer. exercise_page.py prints what is wrong, and exits with 1 if anything is.
+The page has each exercise, with all of its tests in the answer. That the patches apply and that these tests exist is checked
+for all mutants (tests/mutants/check_patches.py). exercise_page.py prints what is wrong, and exits with 1 if anything is.
 """
 
 import re
-import subprocess
 import sys
 
 from source_text import ROOT
 
-sys.path.insert(0, str(ROOT / "tests" / "exercises"))
-from exercises import exercises  # noqa: E402
+sys.path.insert(0, str(ROOT / "tests" / "mutants"))
+from exercises import exercises, runs  # noqa: E402
+from project import is_test_program  # noqa: E402
 
 PAGE = "docs/exercises.md"
 FEWEST = 12
 DETAILS = "<details markdown='1'>"  # MkDocs needs the attribute
-
-
-def test_name(full):
-    """Suite and name of a gtest without the parameters: of "Kinds/Emission.Works/sphere", Emission and Works."""
-    suite, name = full.split(".")
-    return suite.split("/")[-1], name.split("/")[0]
-
-
-def defined_tests():
-    """(suite, name) of all tests in C++."""
-    macro = re.compile(r"\b(?:TEST|TEST_P|TEST_F|RC_GTEST_PROP)\((\w+),\s*(\w+)")
-    return {pair for path in (ROOT / "tests").rglob("*_test.cpp") for pair in macro.findall(path.read_text())}
 
 
 def sections(page):
@@ -39,32 +27,30 @@ def sections(page):
     return found
 
 
-def faults_of(exercise, section, tests):
-    applied = subprocess.run(["git", "apply", "--check", "-"], cwd=ROOT, input=exercise.diff, text=True, capture_output=True)
-    if applied.returncode != 0:
-        yield f"{exercise.name}.patch does not apply: {applied.stderr.strip()}"
+def bare_name(test):
+    """The name of a gtest without suite and parameters: of "Kinds/Emission.Works/sphere", Works."""
+    return test.split(".")[1].split("/")[0]
+
+
+def faults_of(exercise, section):
     if section is None:
         yield f"has no exercise {exercise.name}"
         return
     question, _, answer = section.partition(DETAILS)
     if not answer or "</details>" not in answer:
         yield f"{exercise.name} has no answer in {DETAILS}"
-    yield from (f"{exercise.name}: the question does not name {file}" for file in exercise.files() if file not in question)
-    for _, test, _ in exercise.runs():
-        if not exercise.program.startswith("test_"):
-            if exercise.program not in answer:
-                yield f"{exercise.name}: the answer does not name {exercise.program}"
-        elif test_name(test) not in tests:
-            yield f"{exercise.name}: there is no test {test}"
-        elif test_name(test)[1] not in answer:
-            yield f"{exercise.name}: the answer does not name {test_name(test)[1]}"
+    yield from (f"{exercise.name}: the question does not name {file}" for file in exercise.files if file not in question)
+    program = exercise.programs[0]
+    for _, test, _ in runs(exercise):
+        name = bare_name(test) if is_test_program(program) else program
+        if name not in answer:
+            yield f"{exercise.name}: the answer does not name {name}"
 
 
 def main():
     page = sections((ROOT / PAGE).read_text())
     all_exercises = exercises()
-    tests = defined_tests()
-    faults = [fault for exercise in all_exercises for fault in faults_of(exercise, page.get(exercise.name), tests)]
+    faults = [fault for exercise in all_exercises for fault in faults_of(exercise, page.get(exercise.name))]
     faults += [f"{name}: there is no such patch" for name in page if name not in {e.name for e in all_exercises}]
     if len(all_exercises) < FEWEST:
         faults.append(f"there are only {len(all_exercises)} exercises")

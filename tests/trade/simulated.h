@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace trade_test {
@@ -22,6 +23,7 @@ struct Simulated {
     double variance = 1.0;
     double seconds_per_sample = 1e-3; // per sample per pixel
     double build = 1e-2;              // seconds
+    double cold = 0.0;                // seconds that the first batch on the machine takes in addition
 };
 
 /// Brightness of the true picture: from 1 to 2, different in each channel.
@@ -37,6 +39,7 @@ struct Machine {
     double own_scatter = 0.05; // relative standard deviation of single measurements
     double of_round = 1.0;     // factor on all times of the present round
     trade::Seconds now{};
+    bool cold = true; // nothing was rendered yet
 
     void pass(double seconds)
     {
@@ -60,6 +63,7 @@ private:
     {
         if (monitor.stop && monitor.stop()) return std::nullopt;
         machine_.pass(what_.seconds_per_sample * batch_size_ * factor_);
+        if (std::exchange(machine_.cold, false)) machine_.pass(what_.cold);
         // The mean of n gamma variates of relative variance v is one of relative variance v / n.
         const double shape = batch_size_ / what_.variance;
         std::gamma_distribution<> gamma(shape, 1.0 / shape);

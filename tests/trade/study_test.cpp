@@ -60,6 +60,17 @@ TEST(Study, MeasuresEveryConfigurationOnceARoundInAboutTheTimeGiven)
 
 // Equal seeds in all rounds would make each round the same picture, and all intervals too narrow. An
 // order that does not change would favour the same configuration in every round.
+TEST(Study, PlansByTheSpeedOfAConfigurationThatHasRenderedBefore)
+{
+    Machine machine{std::mt19937_64(7)};
+    Simulated slow_at_first{0.0, 1.0, 1e-3, 1e-4};
+    slow_at_first.cold = 0.2;
+    const auto found = trade::plan_for(1.0, make(slow_at_first, machine), 1, clock_of(machine), {});
+    ASSERT_TRUE(found);
+    // The machine's scatter is 5%: six times as much.
+    EXPECT_NEAR(static_cast<double>(found->batches * found->batch_size), 1000.0, 300.0);
+}
+
 TEST(Study, DrawsSeedsAndOrderAnewInEachRound)
 {
     Example example;

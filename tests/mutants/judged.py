@@ -1,0 +1,28 @@
+"""Generated mutants that were looked at by hand: judged.toml has a table for each.
+
+    [NAME]
+    equivalent = "why no test can tell the program with the mutant from the program without it"
+
+What a test could tell is not judged: the test is written.
+"""
+
+import pathlib
+import tomllib
+
+FILE = pathlib.Path(__file__).with_name("judged.toml")
+
+
+def equivalent(file=FILE):
+    """The names of the mutants that no test can see, each with the reason."""
+    return {name: entry["equivalent"] for name, entry in tomllib.loads(file.read_text()).items()}
+
+
+def faults(names, file=FILE):
+    """Sentences about entries that are wrong. `names`: of all mutants that the generator makes."""
+    found = []
+    for name, entry in tomllib.loads(file.read_text()).items():
+        if name not in names:
+            found.append(f"{file.name}: there is no mutant {name}: its line has changed. Judge it again, or remove the entry.")
+        if not isinstance(entry, dict) or list(entry) != ["equivalent"] or not str(entry["equivalent"]).strip():
+            found.append(f"{file.name}: {name} needs one key, equivalent, with the reason")
+    return found

@@ -1,0 +1,86 @@
+"""Files that are whole or not there, and the outcomes of mutants that were tried."""
+
+import dataclasses
+import enum
+import json
+import os
+import threading
+
+
+class Outcome(str, enum.Enum):
+    KILLED = "killed"
+    CRASH = "killed by a crash"
+    TIMEOUT = "killed by time-out"
+    SURVIVED = "SURVIVED"
+    NO_BUILD = "does not build"
+    NO_PATCH = "does not apply"
+
+    @property
+    def killed(self):
+        return self in (Outcome.KILLED, Outcome.CRASH, Outcome.TIMEOUT)
+
+
+@dataclasses.dataclass
+class Result:
+    """`killed_by`: the first test that noticed the mutant, and `killers` all of them if all tests were run. `wrong`: what is
+    not as the mutant's head says, in sentences. `detail`: the first lines of the compiler or of git."""
+
+    name: str
+    file: str
+    title: str
+    outcome: Outcome
+    killed_by: str = ""
+    build_seconds: float = 0.0
+    test_seconds: float = 0.0
+    wrong: list[str] = dataclasses.field(default_factory=list)
+    detail: str = ""
+    equivalent: str = ""
+    all_tests: bool = False
+    killers: list[str] = dataclasses.field(default_factory=list)
+
+    @property
+    def fine(self):
+        """Whether nothing has to be done about it."""
+        expected = self.outcome is Outcome.SURVIVED if self.equivalent else self.outcome.killed
+        return expected and not self.wrong
+
+
+def write_whole(path, text):
+    """Writes a file so that it has either its old or its new content."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        temporary.write_text(text)
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+class Kept:
+    """The results of earlier starts for the same sources: a file, one line of JSON for each result, appended as they come.
+    Results for other sources go when the file is opened."""
+
+    def __init__(self, path, sources):
+        self.path, self.sources, self.results, self._lock = path, sources, {}, threading.Lock()
+        lines = []
+        for line in path.read_text().splitlines() if path.is_file() else []:
+            try:
+                entry = json.loads(line)
+                result = Result(**dict(entry["result"], outcome=Outcome(entry["result"]["outcome"])))
+            except (ValueError, KeyError, TypeError):
+                continue  # the runner was ended while it wrote this line, or is newer
+            if entry["sources"] == sources:
+                self.results[entry["mutant"], result.all_tests] = result
+                lines.append(line + "\n")
+        write_whole(path, "".join(lines))
+
+    def find(self, mutant, all_tests):
+        found = self.results.get((mutant.digest, all_tests))
+        return found and dataclasses.replace(found, name=mutant.name, title=mutant.title)
+
+    def add(self, mutant, result):
+        entry = {"mutant": mutant.digest, "sources": self.sources, "result": dataclasses.asdict(result)}
+        with self._lock:
+            self.results[mutant.digest, result.all_tests] = result
+            with self.path.open("a") as file:
+                file.write(json.dumps(entry) + "\n")
