@@ -8,7 +8,9 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
+#include <string>
 
 namespace {
 
@@ -96,6 +98,21 @@ TEST_F(Compare, ASuspicionThatNoStageCanConfirmIsInconclusive)
     EXPECT_LT(result.p, 0.05);
     EXPECT_GT(result.p, 1e-8);
     EXPECT_NE(result.reason.find("Suspicious"), std::string::npos);
+}
+
+TEST_F(Compare, TheLevelOfSuspicionIsAProbability)
+{
+    CompareOptions options = for_small_pictures();
+    const Candidate picture = candidate(suspicious);
+    const double p = golden::compare(reference(), picture, Method::ranks, options).p;
+    const auto begins = [&](const std::string& words) {
+        const Comparison result = golden::compare(reference(), picture, Method::ranks, options);
+        return result.reason.starts_with(words) ? "as it should" : result.reason;
+    };
+    options.suspicion_level = 1.1 * p;
+    EXPECT_EQ(begins("Suspicious"), "as it should");
+    options.suspicion_level = 0.9 * p;
+    EXPECT_EQ(begins("No difference found"), "as it should");
 }
 
 TEST_F(Compare, ASuspicionThatAFreshRenderConfirmsFails)
@@ -322,14 +339,19 @@ TEST_F(Compare, CandidatesOfAnotherSceneOrOfTheGoldensSeedAreRefused)
 
 TEST_F(Compare, TheMultiplicityIsThatOfChannelsFamiliesAndTheirMembers)
 {
-    const Comparison result = golden::compare(reference(), candidate(), Method::ranks);
+    // Of a picture that is too dark: few of the products are cut at 1.
+    const Comparison result =
+        golden::compare(reference(), candidate({.everywhere = 0.95}), Method::ranks);
+    std::set<golden::RegionKind> seen; // kinds with a product below 1
     for (const golden::Finding& finding : result.findings) {
         const double members = finding.region.kind == golden::RegionKind::whole       ? 1.0
                                : finding.region.kind == golden::RegionKind::fine_tile ? 64.0
                                                                                       : 16.0;
         EXPECT_DOUBLE_EQ(finding.adjusted_p, std::min(1.0, finding.test.p * 3.0 * 15.0 * members));
         EXPECT_GE(finding.adjusted_p, result.p);
+        if (finding.adjusted_p < 1.0) seen.insert(finding.region.kind);
     }
+    EXPECT_EQ(seen.size(), 5u);
 }
 
 TEST_F(Compare, WhatAGoldenPromisesToShowIsWhatAComparisonWithItSays)

@@ -119,22 +119,30 @@ TEST(Golden, ABatchThatDoesNotFitIsRefusedAndLeavesNoTrace)
     EXPECT_EQ(maker.film().batches(), 1u);
 }
 
-/// The error message of read_golden for a golden whose metadata was edited, without the file's name.
+/// The error message of read_golden for a golden on which `edit` was called, without the file's name.
 /// Empty if there is no error.
-std::string error_with(const std::string& key, const std::string& value)
+template <class Edit>
+std::string error_after(const Edit& edit)
 {
     const TemporaryFolder folder;
     GoldenMaker maker(4, 4, 2);
     for (int i = 0; i < 4; ++i) maker.add_batch(Image(4, 4));
     maker.write(folder / "a.exr", metadata, FilmState::omit);
     images::ExrPicture picture = images::read_exr(folder / "a.exr");
-    if (value == "removed")
-        picture.metadata.erase(key);
-    else
-        picture.metadata[key] = value;
+    edit(picture);
     images::write_exr(folder / "b.exr", film_of(picture.mean), picture.metadata, picture.layers);
     const std::string error = error_of<ImageError>([&] { golden::read_golden(folder / "b.exr"); });
     return error.empty() ? error : error.substr((folder / "b.exr").string().size());
+}
+
+std::string error_with(const std::string& key, const std::string& value)
+{
+    return error_after([&](images::ExrPicture& picture) {
+        if (value == "removed")
+            picture.metadata.erase(key);
+        else
+            picture.metadata[key] = value;
+    });
 }
 
 TEST(Golden, FilesThatAreNoGoldensAreRefusedWithTheReason)
@@ -171,6 +179,16 @@ TEST(Golden, DamagedMetadataIsAnErrorAndNoCrash)
     EXPECT_EQ(error_with("golden.reference_batches", "99999999999"),
               ": '99999999999' is no golden.reference_batches");
     EXPECT_NE(error_with("golden.functionals", "version 0").find("make it again"), std::string::npos);
+}
+
+TEST(Golden, AReferenceValueThatIsNotFiniteIsAnError) // no comparison with it would ever be true
+{
+    for (const double value :
+         {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()})
+        EXPECT_EQ(error_after([&](images::ExrPicture& picture) {
+                      picture.layers.at("reference.001").at(2, 1).b = value;
+                  }),
+                  ": damaged golden: a reference value is NaN or infinite");
 }
 
 } // namespace

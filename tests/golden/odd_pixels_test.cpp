@@ -270,6 +270,26 @@ TEST(OddPixelWithoutNoise, ALampThatIsSeenIsNotClipped)
     EXPECT_EQ(golden::odd_pixels(golden, image, 8.0, 1e-9).size(), 1u);
 }
 
+TEST(OddPixelWithoutNoise, ThatIsDeadIsJudgedAsTheDarkestOfAll)
+{
+    golden::GoldenMaker maker(16, 16, 4);
+    Image image(16, 16);
+    for (Rgb& pixel : image.pixels) pixel = Rgb(1.0);
+    for (int batch = 0; batch < 300; ++batch) maker.add_batch(image);
+    const golden::Golden golden = maker.golden({});
+    image.at(5, 9).g = 0.0;
+    constexpr double batches = 60.0;
+    const auto is_wrong = [&](double level) {
+        const auto found = golden::odd_pixels(golden, image, batches, level);
+        return found.size() == 1 && found[0].wrong;
+    };
+    // The chance of one value has a bound that is larger than this, by a factor of less than 100.
+    const double least = golden::chance_of_darkness(0.0, 1.0, 0.0, batches);
+    constexpr double values = 3.0 * 16.0 * 16.0;
+    EXPECT_FALSE(is_wrong(values * least));
+    EXPECT_TRUE(is_wrong(100.0 * values * least));
+}
+
 /// The bound holds for distributions for which it is nearly tight: one sample of many finds light.
 RC_GTEST_PROP(ChanceOfDarkness, IsAnUpperBound, ())
 {

@@ -68,7 +68,14 @@ def do_not_apply(mutants, root):
     return [f"{made.name}.patch does not apply: {text.splitlines()[0]}" for made, text in complaints if text]
 
 
+def lost_tags(diff):
+    """The tags of docs/map.md that a change removes. Without some of them explain/ cannot be configured."""
+    tags = [re.findall(rf"^{re.escape(sign)}.*// map: (.*)", diff, re.MULTILINE) for sign in "-+"]
+    return [tag for tag in tags[0] if tag not in tags[1]]
+
+
 def faults_of(made, tests, targets):
+    yield from (f"{made.name}.patch: the tag // map: {tag} must stay" for tag in lost_tags(made.diff))
     yield from (f"{made.name}.patch: there is no program {name}" for name in made.programs if name not in targets)
     if not any(map(is_test_program, made.programs)):
         return

@@ -179,6 +179,26 @@ TEST(ExportGltf, AssimpReadsTheSameTriangles)
         }
 }
 
+TEST(ReadMesh, TheFrontOfATriangleBelowAMirroredNodeIsTheImageOfItsFront)
+{
+    const images_test::TemporaryFolder folder;
+    const Scene scene = transport_test::our_scene("point_over_plane");
+    const std::string file = write_gltf(scene, folder, "a.gltf");
+    json mirrored = json::parse(images_test::read_bytes(file));
+    for (json& node : mirrored["nodes"])
+        if (node.contains("mesh")) node["scale"] = {-1, 1, 1};
+    images_test::write_bytes(file, mirrored.dump());
+    std::vector<Corners> expected;
+    for (const Corners& corners : expected_triangles(scene)) {
+        const auto image = [&](std::size_t i) { return Vec3(-1, 1, 1) * corners[i]; };
+        expected.push_back({image(0), image(2), image(1)});
+    }
+    std::vector<Corners> triangles;
+    for (const auto& triangle : scenes::read_mesh(file).triangles)
+        triangles.push_back(triangle.vertices);
+    EXPECT_EQ(triangles, expected);
+}
+
 TEST(ExportGltf, AssimpReadsTheSameCameraAndLight)
 {
     const images_test::TemporaryFolder folder;

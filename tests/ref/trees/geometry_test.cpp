@@ -11,6 +11,7 @@
 
 namespace {
 
+using ref::Builder;
 using ref::Geometry;
 using ref::Ray;
 using ref::SurfacePoint;
@@ -154,6 +155,15 @@ std::vector<Ball> balls()
         for (const double ratio : {1e-8, 1e-4, 1e-2, 1.0, 1e4, 1e8})
             all.push_back({scale * ratio, scale});
     return all;
+}
+
+TEST(SurfacePoint, HasItsNormalAtAnyScale) // the square of an area is a product of four lengths
+{
+    for (const double size : {1e-100, 1.0, 1e100}) {
+        scenes::Scene scene = empty_scene();
+        scene.triangles = {{{Vec3(0), Vec3(size, 0, 0), Vec3(0, size, 0)}, 0}};
+        EXPECT_EQ(triangle_point(Geometry(scene), 0, Vec3(1) / 3.0).normal, Vec3(0, 0, 1)) << size;
+    }
 }
 
 TEST(LeaveSurface, ARayFromTheOutsideOfASphereDoesNotMeetItAndOneFromTheInsideMeetsTheFarSide)
@@ -414,6 +424,62 @@ TEST(Geometry, ARayInTheFaceOfABoxIsStoppedByTheWallAtItsEnd)
         ASSERT_TRUE(hit);
         EXPECT_EQ(hit->t, 0.5);
     }
+}
+
+/// A matte surface, primitive 0, and a lamp in the same place whose front is where z is larger.
+scenes::Scene lamp_in_a_wall(const Vec3& at, double size, double height)
+{
+    scenes::Scene scene;
+    scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}, scenes::Emission{scenes::Rgb(1)}};
+    const std::array<Vec3, 3> v{at, at + size * Vec3(1, 0, 0), at + size * Vec3(0, 1, 0)};
+    const Vec3 up(0, 0, height);
+    scene.triangles = {{v, 0}, {{v[0] + up, v[1] + up, v[2] + up}, 1}};
+    return scene;
+}
+
+TEST(CoincidentSurfaces, ALampIsMetFromItsFrontAndTheWallFromTheOtherSide)
+{
+    for (const bool turned : {false, true}) {
+        scenes::Scene scene = lamp_in_a_wall(Vec3(0), 1, 0);
+        if (turned) std::swap(scene.triangles[1].vertices[1], scene.triangles[1].vertices[2]);
+        scene.spheres = {{Vec3(9), 1, 0}, {Vec3(9), 1, 1}};
+        const Geometry geometry(scene, Builder::sah, coincidences(scene));
+        for (const double side : {1.0, -1.0}) {
+            const std::uint32_t seen = (side > 0) != turned ? 1 : 0;
+            const auto hit = intersect(geometry, {Vec3(0.25, 0.25, side), Vec3(0, 0, -side)});
+            ASSERT_TRUE(hit);
+            EXPECT_EQ(hit->primitive, seen);
+            for (const std::uint32_t triangle : {0u, 1u})
+                EXPECT_EQ(sees_first(geometry, triangle_point(geometry, triangle, Vec3(1) / 3.0),
+                                     Vec3(0, 0, side)),
+                          triangle == seen);
+        }
+        EXPECT_EQ(intersect(geometry, {Vec3(9, 9, 12), Vec3(0, 0, -1)})->primitive, 3);
+        EXPECT_EQ(intersect(geometry, {Vec3(9), Vec3(0, 0, -1)})->primitive, 2);
+    }
+}
+
+TEST(CoincidentSurfaces, ARayFromOneMeetsNotTheOther)
+{
+    // Small, so that the distance of 16 u between them is the largest part of the error.
+    const scenes::Scene scene = lamp_in_a_wall(Vec3(1), 1e-3, 16 * u);
+    const Geometry geometry(scene, Builder::sah, coincidences(scene));
+    ASSERT_FALSE(geometry.coincident().empty());
+    const SurfacePoint wall = triangle_point(geometry, 0, Vec3(1) / 3.0);
+    EXPECT_FALSE(occluded(geometry, {leave_surface(wall, Vec3(0, 0, 1)), Vec3(0, 0, 1)}));
+}
+
+// Components that differ by more than the digits of a double, and reciprocals beyond 1e30.
+TEST(Geometry, TheLengthOfADirectionOnlyScalesT)
+{
+    const scenes::Scene scene = scene_of(trees_test::tessellated_box(2, 1));
+    const Geometry geometry(scene);
+    for (const double length : {0x1p-200, 0x1p-60, 1.0, 0x1p200})
+        for (const double beside : {0.0, 0x1p-60, -0x1p-60}) {
+            const auto hit = intersect(geometry, {Vec3(0.5, 0, 1), length * Vec3(1, beside, 0)});
+            ASSERT_TRUE(hit) << length << ' ' << beside;
+            EXPECT_DOUBLE_EQ(hit->t, 0.5 / length); // 4 ulp = 8 u; a weight carries 3 u, t another 3
+        }
 }
 
 TEST(Geometry, AnEmptySceneIsHitByNothing)

@@ -167,6 +167,14 @@ TEST(RadixTree, OfEqualKeysIsBalanced) // without the tie-break: a chain, or nod
     }
 }
 
+TEST(RadixTree, DoesNotReadBehindItsKeys)
+{
+    Codes more = karras_example;
+    more.push_back(more.back()); // would share the longest prefix with the last key
+    EXPECT_EQ(ref::radix_tree(std::span(more).first(karras_example.size())),
+              ref::lauterbach_tree(karras_example));
+}
+
 TEST(RadixTree, TheDeepestTreeKeepsTheBound)
 {
     // Keys 0, 1, 2, 4, ..., 2^62, the first repeated many times: every bit of the code adds a level.
