@@ -35,8 +35,9 @@ def section(made):
     yield sentence(made.symptom)
     yield f"![right, wrong, difference: {made.title}](images/bug_{made.name}.png)"
     yield made.cause
+    happened = "" if made.origin.startswith("made by hand") else f"Where it happened: {made.origin}. "
     yield (
-        f"Where it happened: {sentence(made.origin)} Seen by {tests}. The mistake is "
+        f"{happened}Seen by {tests}. The mistake is "
         f"[`{made.name}.patch`](../tests/mutants/patches/{made.name}.patch) in `{made.files[0]}`, the picture `plumbline render {made.picture}`."
     )
 
