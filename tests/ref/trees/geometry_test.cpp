@@ -244,6 +244,20 @@ TEST(LeaveSurface, ARayMeetsNoLargerNeighbourInThePlane)
         }
 }
 
+// The position and the weights of a corner in the origin are exact. Of the error bound there is only the
+// part for the triangle test: 2 u a_i + 5 u a (derivation in geometry.cpp, 3.), no more than counted there.
+TEST(LeaveSurface, TheErrorBoundHasRoomForTheRoundingOfTheTriangleTest)
+{
+    scenes::Scene scene = empty_scene();
+    scene.triangles = {{{Vec3(0), Vec3(1, 0.5, 0), Vec3(0, 2, 0.25)}, 0}};
+    const Vec3 extent(1, 2, 0.25);
+    const Vec3 error = triangle_point(Geometry(scene), 0, Vec3(1, 0, 0)).error;
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_GE(error[axis], u * (2 * extent[axis] + 5 * 2));
+        EXPECT_LE(error[axis], u * (2 * extent[axis] + 6 * 2) * (1 + 4 * u));
+    }
+}
+
 TEST(LeaveSurface, DoesNotDependOnHowLargeTheRestOfTheSceneIs)
 {
     Random random(9);
