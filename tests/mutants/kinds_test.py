@@ -99,6 +99,7 @@ class Kinds(unittest.TestCase):
     def test_swapped_name(self):
         self.expect("swapped_name", "const int k = s + 1;", "const int k = t + 1;")
         self.expect("swapped_name", "g(p.pdf_fwd, p.pdf_rev);", "g(p.pdf_rev, p.pdf_rev);", "g(p.pdf_fwd, p.pdf_fwd);")
+        self.expect("swapped_name", "const bool first = g();\nconst Vertex last = h();\nk(first, last, first, last);")
         self.expect("swapped_name", "return p.light;\nfor (int left : g()) h(left);")  # no other one is there
 
     def test_swapped_arguments(self):
@@ -108,6 +109,7 @@ class Kinds(unittest.TestCase):
     def test_negate_condition(self):
         self.expect("negate_condition", "if (a < b) g();", "if (!(a < b)) g();")
         self.expect("negate_condition", "x = s == 0 ? a : b;", "x = !(s == 0) ? a : b;")
+        self.expect("negate_condition", "return g(s) ? a : b;", "return !(g(s)) ? a : b;")
         self.expect("negate_condition", "if constexpr (n) g();\nif (!c) g();\nif (auto* p = h()) g();")
 
     def test_skip_update(self):
