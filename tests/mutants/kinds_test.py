@@ -104,6 +104,7 @@ class Kinds(unittest.TestCase):
 
     def test_swapped_arguments(self):
         self.expect("swapped_arguments", "g(a, b, v);\nstd::min(a, b);", "g(b, a, v);")
+        self.expect("swapped_arguments", "int n = 0;\nint many[3];\ng(n, many);")
         self.expect("swapped_arguments", "g(u[1], u[2]);", "g(u[2], u[1]);")
 
     def test_negate_condition(self):

@@ -84,7 +84,8 @@ def add_declared(types, source, begin, end):
         while j > 0 and (texts[j] == "const" or (texts[j] in ("&", "*") and not source.spaced(j))):
             j -= 1
         if tokens[j].kind == "name" and texts[j] not in NO_TYPES:
-            types.setdefault(texts[i], set()).add(texts[j] + ("*" if "*" in texts[j:i] else ""))
+            kind = texts[j] + ("*" if "*" in texts[j:i] else "") + ("[]" if texts[i + 1] == "[" else "")
+            types.setdefault(texts[i], set()).add(kind)
         elif texts[j] in (">", "auto") and not source.spaced(j):
             types.setdefault(texts[i], set()).add("?")
 
