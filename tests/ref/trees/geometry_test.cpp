@@ -169,6 +169,24 @@ TEST(SurfacePoint, HasTheSameErrorBoundInAReflectedScene)
     }
 }
 
+TEST(SeesFirst, SaysWhichOfTwoCoincidentSurfacesARayFromThereHits)
+{
+    scenes::Scene scene = empty_scene();
+    scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}, scenes::Emission{scenes::Rgb(1)}};
+    const std::array<Vec3, 3> v = {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    scene.triangles = {{v, 0}, {v, 1}};
+    const Geometry geometry(scene, ref::Builder::sah_leaf, scenes::coincidences(scene));
+    for (const double side : {1.0, -1.0})
+        for (const std::uint32_t triangle : {0u, 1u}) {
+            const SurfacePoint point = triangle_point(geometry, triangle, Vec3(0.5, 0.25, 0.25));
+            const Vec3 towards(0, 0, side);
+            const auto hit = intersect(geometry, {point.position + towards, -towards});
+            ASSERT_TRUE(hit);
+            EXPECT_EQ(hit->primitive, side > 0 ? 1u : 0u); // the emitter from its front only
+            EXPECT_EQ(sees_first(geometry, point, towards), hit->primitive == triangle);
+        }
+}
+
 struct Ball {
     double radius, distance;
 };

@@ -80,8 +80,8 @@ RC_GTEST_PROP(BuildSah, SplitsEveryNodeAtTheLeastCost, ()) // map: sah-split
 TEST(BuildSah, TakesTheMostBalancedOfSplitsOfEqualCost)
 {
     // Squares of side 1 across x: a split into i squares of extent a and 5 - i of extent b costs
-    // i (2 a + 1) + (5 - i) (2 b + 1). At 0, 1, 4, 5, 10 this is 45 for i = 2 and for i = 4, and more for
-    // the others.
+    // i (2 a + 1) + (5 - i) (2 b + 1). At 0, 1, 4, 5, 10 this is 45 for i = 2 and for i = 4, and more
+    // for the others.
     for (const bool mirrored : {false, true}) {
         std::vector<Aabb> boxes;
         for (const double x : {0, 1, 4, 5, 10}) {
