@@ -10,6 +10,7 @@
 #include <atomic>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
 namespace {
 
@@ -215,6 +216,35 @@ TEST(Render, PassesOnWhatAnIntegratorThrows)
     EXPECT_THROW(images::fill(film, 3, *ref::renderer(world, broken, {.batch_size = 2}, 2)),
                  std::runtime_error);
     EXPECT_EQ(film.batches(), 0u);
+}
+
+std::atomic<bool> thread_has_ended = false;
+
+struct SetsItAtTheEnd {
+    ~SetsItAtTheEnd() { thread_has_ended = true; }
+};
+
+TEST(Render, StopsTheOtherThreadsWhereAnIntegratorThrows)
+{
+    static std::atomic<int> samples = 0;
+    static const std::thread::id this_one = std::this_thread::get_id();
+    thread_has_ended = false;
+    // The second thread throws in its first sample. This one waits for its end, and so finds the error.
+    const auto broken = [](const ref::World& /*world*/, const ref::PathOptions& /*options*/,
+                           const ref::SampleId& /*id*/, std::vector<Contribution>& /*out*/) {
+        if (std::this_thread::get_id() != this_one) {
+            thread_local const SetsItAtTheEnd end;
+            static_cast<void>(end);
+            throw std::runtime_error("broken");
+        }
+        ++samples;
+        while (!thread_has_ended) std::this_thread::yield();
+    };
+    const ref::World world(scene(), width, height);
+    images::Film film(width, height);
+    EXPECT_THROW(images::fill(film, 1, *ref::renderer(world, broken, {.batch_size = 1}, 2)),
+                 std::runtime_error);
+    EXPECT_LE(samples, 16 * 16); // the rest of the tile that it had begun
 }
 
 TEST(Render, RefusesAFilmOfAnotherSize)
