@@ -140,6 +140,20 @@ TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel) // map: splat
     for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(0.5, 1.0, 2.0));
 }
 
+// Batch n draws the samples n B ... n B + B - 1 of every pixel: none twice, none left out. Batches that
+// share samples make the same picture on average, but their error tells less than the truth. Four whole
+// numbers whose sum is 6 and whose squares add up to 14 can only be 0, 1, 2, 3.
+TEST(Render, DrawsEverySampleOfAPixelOnce)
+{
+    const auto its_number = [](const ref::World& /*world*/, const ref::PathOptions& /*options*/,
+                               const ref::SampleId& id, std::vector<Contribution>& out) {
+        const double number = id.sample;
+        out.push_back({id.pixel, 0, 2, Rgb(number, number * number, 1.0), 1.0});
+    };
+    const images::Film film = rendered(its_number, 2, 2);
+    for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(6.0 / 4.0, 14.0 / 4.0, 1.0));
+}
+
 /// One finite contribution; and for every third pixel one that is not finite, to its own pixel or as a
 /// splat.
 void sometimes_not_finite(const ref::World& /*world*/, const ref::PathOptions& /*options*/,
