@@ -21,7 +21,8 @@ std::string describe(Verdict verdict); // "PASS", "FAIL", "INCONCLUSIVE"
 /// The result of one stage.
 struct Stage {
     std::uint64_t batches;
-    double p;     // first stage: the smallest adjusted p; later: the smallest one-sided p of what is suspected
+    double
+        p; // first stage: the smallest adjusted p; later: the smallest one-sided p of what is suspected
     double level; // a suspicion stands if p < level
 };
 

@@ -187,8 +187,7 @@ void write_fresh_power(std::ostream& out, const Tick& tick)
     out << "\n";
 }
 
-constexpr std::array caustic_noises = {Noise::lognormal, Noise::pareto_25, Noise::pareto_20,
-                                       Noise::pareto_15};
+constexpr std::array caustic_noises = {Noise::lognormal, Noise::pareto_20, Noise::pareto_15};
 
 Plan caustic_plan()
 {
@@ -204,7 +203,8 @@ void write_caustic(std::ostream& out, const Tick& tick)
     plan.tick = tick;
     out << "The caustic 5% too dark, " << plan.goldens << " goldens with " << plan.trials
         << " candidates each, of populations of samples on which nothing was chosen:\n\n"
-           "| noise | FAIL (95% interval) | by the strongest suspicion alone | found only by another one "
+           "| noise | FAIL (95% interval) | by the strongest suspicion alone | found only by another "
+           "one "
            "| PASS | INCONCLUSIVE | smallest error in the least sensitive stratum that a PASS states |\n"
            "|---|---|---|---|---|---|---|\n";
     for (const Noise noise : caustic_noises) {

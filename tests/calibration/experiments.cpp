@@ -171,9 +171,8 @@ Verdicts measure_verdicts(Method method, Noise golden_noise, Noise candidate_noi
         result.pass += verdict == golden::Verdict::pass;
         result.fail += verdict == golden::Verdict::fail;
         result.inconclusive += verdict == golden::Verdict::inconclusive;
-        result.by_strongest +=
-            verdict == golden::Verdict::fail &&
-            comparison.findings[*comparison.suspicion].adjusted_p == comparison.p;
+        result.by_strongest += verdict == golden::Verdict::fail &&
+                               comparison.findings[*comparison.suspicion].adjusted_p == comparison.p;
     });
     return result;
 }
