@@ -290,7 +290,8 @@ TEST(LeaveSurface, ARayMeetsNoLargerNeighbourInThePlane)
 }
 
 // The position and the weights of a corner in the origin are exact. Of the error bound there is only the
-// part for the triangle test: 2 u a_i + 5 u a (derivation in geometry.cpp, 3.), no more than counted there.
+// part for the triangle test: 2 u a_i + 5 u a (derivation in geometry.cpp, 3.), no more than counted
+// there.
 TEST(LeaveSurface, TheErrorBoundHasRoomForTheRoundingOfTheTriangleTest)
 {
     scenes::Scene scene = empty_scene();
