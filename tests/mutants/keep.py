@@ -20,6 +20,11 @@ class Outcome(str, enum.Enum):
         return self in (Outcome.KILLED, Outcome.CRASH, Outcome.TIMEOUT)
 
 
+    def by(self, test):
+        """The outcome in words, with the test."""
+        return self.value + (f" {'by' if self is Outcome.KILLED else 'in'} {test}" if test else "")
+
+
 @dataclasses.dataclass
 class Result:
     """`killed_by`: the first test that noticed the mutant, and `killers` all of them if all tests were run. `wrong`: what is
