@@ -79,6 +79,12 @@ class Command(unittest.TestCase):
         self.assertEqual(err, "mutants: test_toy does not build without a mutant:\nerror: no compiler\n")
         self.assertFalse(self.table.with_suffix(".json").exists())
 
+    def test_two_at_once(self):
+        with mutants.alone(self.project.place):
+            status, _, err = self.run_command()
+        self.assertEqual(status, 1)
+        self.assertIn("another runner uses", err)
+
     def test_a_list_tries_nothing(self):
         status, out, _ = self.run_command("--list", "minus")
         self.assertEqual((status, out), (0, "minus  title of minus\n"))
