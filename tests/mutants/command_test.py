@@ -95,13 +95,13 @@ class Words(unittest.TestCase):
     def test_on_a_terminal_and_elsewhere(self):
         terminal = io.StringIO()
         terminal.isatty = lambda: True
-        for status, expected in ((io.StringIO(), ""), (terminal, "3 of 4; about ")):
+        for status, expected in ((io.StringIO(), ""), (terminal, "3 of 4; about 2 minutes left")):
             out = io.StringIO()
             progress = Progress(2, 4, 5, out, status)
+            progress.begin -= 100
             progress.result(Result("m", "f", "", Outcome.SURVIVED))
             self.assertIn(expected, status.getvalue())
             self.assertEqual(out.getvalue(), "m      SURVIVED  (build 0.0 s, tests 0.0 s)\n")
-        self.assertIn("seconds left", terminal.getvalue())
 
 
 if __name__ == "__main__":
