@@ -1,5 +1,6 @@
 """The runner on a toy project: each outcome, wrong claims, a second start, and an end by Ctrl-C."""
 
+import dataclasses
 import io
 import tempfile
 import time
@@ -69,6 +70,11 @@ class Outcomes(Runner):
         self.assertEqual((result.outcome, result.killed_by), (Outcome.NO_PATCH, ""))
         self.assertIn("sum.sh", result.detail)
         self.assertFalse(result.fine)
+
+    def test_a_patch_that_changes_nothing(self):
+        made = toy_mutant("same", MINUS)
+        result = self.run_mutants(dataclasses.replace(made, diff=made.diff.replace("$1 - $2", "$1 + $2")))
+        self.assertEqual((result.outcome, result.detail), (Outcome.NO_PATCH, "the patch changes nothing"))
 
     def test_a_hang_is_killed_by_time_out(self):
         self.short = True
