@@ -85,6 +85,17 @@ class Command(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertIn("another runner uses", err)
 
+    def test_sources_that_change_after_the_start(self):
+        measure = mutants.workers.measure
+
+        def slow(*arguments):
+            measure(*arguments)
+            (self.project.root / "ref/sum/new.sh").write_text("")
+
+        with mock.patch.object(mutants.workers, "measure", slow):
+            status, _, err = self.run_command()
+        self.assertEqual((status, err), (1, "mutants: the sources have changed since the start: start again\n"))
+
     def test_a_list_tries_nothing(self):
         status, out, _ = self.run_command("--list", "minus")
         self.assertEqual((status, out), (0, "minus  title of minus\n"))

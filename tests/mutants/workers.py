@@ -6,7 +6,9 @@ import queue
 import threading
 
 import processes
+from sources import digest
 from trial import try_mutant
+from unchanged import Unusable
 
 
 class Line:
@@ -94,6 +96,8 @@ def try_all(project, unchanged, mutants, workers, all_tests=False):
     def work(number, put):
         copy = project.copy(number)
         copy.bring_up_to_date()
+        if digest(copy.folder) != unchanged.digest:
+            raise Unusable("the sources have changed since the start: start again")
         while mutant := line.next(number):
             for program in mutant.programs[:1]:  # so that the time of the build is that of the mutant, and errors are its own
                 _build_unchanged(project, copy, mutant.preset, program)
