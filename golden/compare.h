@@ -39,8 +39,8 @@ std::array<double, 3> detectable_error(const Golden& golden, std::uint64_t batch
 /// Renders `batches` batches into an empty candidate, with a seed of its own for each stage.
 using RenderStage = std::function<void(std::size_t stage, std::uint64_t batches, Candidate& candidate)>;
 
-/// Judges in stages: a suspicion of the first is tested again on fresh renders. FAIL takes a rejection
-/// in every stage, or one below the certainty level.
+/// Judges in stages: all suspicions of the first are tested again on fresh renders. FAIL takes one that
+/// is rejected in every stage, or one below the certainty level.
 Comparison compare(const Golden& golden, const RenderStage& render, Method method,
                    const CompareOptions& options = {});
 

@@ -13,7 +13,7 @@ struct CompareOptions {
     /// The same where a fresh render can confirm or clear it: then the first stage only chooses what the
     /// next one tests, and a higher level finds more at the price of more renders.
     double screening_level = 0.2;
-    /// Level of each later stage, which tests the one suspected functional, one-sided.
+    /// Level of each later stage, which tests the suspected functionals, one-sided.
     double confirmation_level = 1e-7;
     double certainty_level = 1e-8; // of an adjusted p-value: below it, one stage is enough for FAIL
     double dark_level = 1e-9;      // of all pixels together: below it, a dark pixel is enough for FAIL

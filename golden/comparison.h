@@ -18,11 +18,12 @@ namespace golden {
 enum class Verdict { pass, fail, inconclusive };
 std::string describe(Verdict verdict); // "PASS", "FAIL", "INCONCLUSIVE"
 
-/// The result of one stage for the suspicion: the finding with the smallest adjusted p-value.
+/// The result of one stage.
 struct Stage {
     std::uint64_t batches;
-    double p;     // first stage: the smallest adjusted p; later: one-sided, of that functional alone
-    double level; // the suspicion stands if p < level
+    double
+        p; // first stage: the smallest adjusted p; later: the smallest one-sided p of what is suspected
+    double level; // a suspicion stands if p < level
 };
 
 /// The batches that make an error of the specified size detectable.
@@ -41,7 +42,8 @@ struct Comparison {
     double p = 1.0; // the smallest adjusted p of the first stage
     std::vector<Finding> findings;
     std::optional<std::size_t>
-        suspicion; // index into `findings`: the smallest adjusted p, significant or not
+        suspicion; // index into `findings`: the smallest adjusted p, significant or not; after further
+                   // stages the smallest of those that they all confirm, if there is one
     std::vector<Stage> stages;
     /// Smallest detectable relative error of the whole picture, per channel, at the first stage; NaN for
     /// a channel in which the golden is black.

@@ -101,7 +101,7 @@ std::string say_suspicion(const Comparison& comparison)
                 say(finding.interval.low, 4) + " to " + say(finding.interval.high, 4) + ")";
     else
         text += finding.test.z > 0.0 ? " is brighter than the golden's" : " is darker than the golden's";
-    return text + ", p " + say_p(comparison.p);
+    return text + ", p " + say_p(finding.adjusted_p);
 }
 
 std::string say_shortfall(const Comparison& comparison)

@@ -75,7 +75,10 @@ std::vector<std::string> summary_of(const Comparison& comparison)
                     number("%.1f", 100.0 * comparison.coverage) + "% are conclusive.");
     if (comparison.suspicion) {
         const Finding& f = comparison.findings[*comparison.suspicion];
-        lines.push_back("It is that of " + describe(f) + ".");
+        lines.push_back((f.adjusted_p == comparison.p
+                             ? "It is that of "
+                             : "Confirmed is the one of " + number("%.3g", f.adjusted_p) + ", of ") +
+                        describe(f) + ".");
     }
     if (comparison.least_sensitive_stratum) {
         const Finding& f = comparison.findings[*comparison.least_sensitive_stratum];

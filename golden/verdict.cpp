@@ -67,6 +67,16 @@ std::string say_hidden(const Comparison& comparison, std::size_t channel)
            "that are rare in them; ";
 }
 
+/// The error that is found if it is only in the pixels where the least is found: a clause, or nothing.
+std::string say_least_sensitive(const Comparison& comparison)
+{
+    if (!comparison.least_sensitive_stratum) return "";
+    const Finding& finding = comparison.findings[*comparison.least_sensitive_stratum];
+    const double detectable = detectable_by(finding);
+    return "; of " + describe_place(finding) + " alone, " +
+           (std::isfinite(detectable) ? "one of " + say_percent(detectable) : "none");
+}
+
 } // namespace
 
 void summarise(Comparison& comparison)
@@ -144,7 +154,8 @@ void pass_or_inconclusive(Comparison& comparison, const CompareOptions& options,
     comparison.verdict = Verdict::pass;
     give_reason(comparison, channel ? "No difference found; an error of " + say_percent(detectable) +
                                           " of the whole picture would have been found, with " +
-                                          say_percent(options.power) + " probability." + remark
+                                          say_percent(options.power) + " probability" +
+                                          say_least_sensitive(comparison) + "." + remark
                                     : "Both pictures are black." + remark);
 }
 

@@ -187,6 +187,39 @@ void write_fresh_power(std::ostream& out, const Tick& tick)
     out << "\n";
 }
 
+constexpr std::array caustic_noises = {Noise::lognormal, Noise::pareto_20, Noise::pareto_15};
+
+Plan caustic_plan()
+{
+    Plan plan = make_plan(128, 5, 20);
+    plan.seed = 2;
+    plan.population = 1;
+    return plan;
+}
+
+void write_caustic(std::ostream& out, const Tick& tick)
+{
+    Plan plan = caustic_plan();
+    plan.tick = tick;
+    out << "The caustic 5% too dark, " << plan.goldens << " goldens with " << plan.trials
+        << " candidates each, of populations of samples on which nothing was chosen:\n\n"
+           "| noise | FAIL (95% interval) | by the strongest suspicion alone | found only by another "
+           "one "
+           "| PASS | INCONCLUSIVE | smallest error in the least sensitive stratum that a PASS states |\n"
+           "|---|---|---|---|---|---|---|\n";
+    for (const Noise noise : caustic_noises) {
+        const Verdicts v = measure_verdicts(Method::ranks, noise, noise, {.in_caustic = 0.95}, plan);
+        out << "| " << name(noise) << " | " << with_interval({v.fail, v.trials()}) << " | "
+            << v.by_strongest << " | " << v.fail - v.by_strongest << " | " << v.pass << " | "
+            << v.inconclusive << " | "
+            << (v.pass == 0                  ? "-"
+                : std::isinf(v.least_stated) ? "none"
+                                             : percent(v.least_stated))
+            << " |\n";
+    }
+    out << "\n";
+}
+
 void write_other_estimators(std::ostream& out, const Tick& tick)
 {
     Plan plan = estimator_plan();
@@ -301,6 +334,8 @@ std::vector<Table> tables()
             {"fresh-power", write_fresh_power,
              static_cast<double>(fresh_layouts.size() * noises.size() * hard_cases.size()) *
                  trials_of(fresh_plan())},
+            {"caustic", write_caustic,
+             static_cast<double>(caustic_noises.size()) * trials_of(caustic_plan())},
             {"few-pictures", write_few_pictures,
              static_cast<double>(few_pictures.size() * few_noises.size()) *
                  (trials_of(few_right_plan()) +

@@ -144,8 +144,8 @@ FalseAlarms measure_false_alarms(Noise noise, const Plan& plan)
 Verdicts measure_verdicts(Method method, Noise golden_noise, Noise candidate_noise, const Bias& bias,
                           const Plan& plan)
 {
-    const SimulatedRenderer renderer(plan.size, golden_noise, plan.layout);
-    const SimulatedRenderer other(plan.size, candidate_noise, plan.layout);
+    const SimulatedRenderer renderer(plan.size, golden_noise, plan.layout, plan.population);
+    const SimulatedRenderer other(plan.size, candidate_noise, plan.layout, plan.population);
     Verdicts result;
     std::mutex mutex;
     for_each_trial(renderer, plan, [&](const Golden& golden, std::uint64_t seed) {
@@ -161,11 +161,18 @@ Verdicts measure_verdicts(Method method, Noise golden_noise, Noise candidate_noi
                                            : compare_picture(golden, candidate.film().mean(),
                                                              4.0 * static_cast<double>(first_stage));
         };
-        const golden::Verdict verdict = judge().verdict;
+        const golden::Comparison comparison = judge();
+        const golden::Verdict verdict = comparison.verdict;
         const std::lock_guard lock(mutex);
+        if (verdict == golden::Verdict::pass && comparison.least_sensitive_stratum)
+            result.least_stated =
+                std::fmin(result.least_stated,
+                          comparison.findings[*comparison.least_sensitive_stratum].detectable);
         result.pass += verdict == golden::Verdict::pass;
         result.fail += verdict == golden::Verdict::fail;
         result.inconclusive += verdict == golden::Verdict::inconclusive;
+        result.by_strongest += verdict == golden::Verdict::fail &&
+                               comparison.findings[*comparison.suspicion].adjusted_p == comparison.p;
     });
     return result;
 }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct Plan {
     int goldens = 1;
     int trials = 1; // candidates per golden
     std::uint64_t seed = 1;
+    std::uint64_t population = 0; // of SimulatedRenderer
     unsigned threads = 1;
     Tick tick = {};
     Layout layout = {};
@@ -55,6 +57,11 @@ FalseAlarms measure_false_alarms(Noise noise, const Plan& plan);
 /// renderer (Method::welch), or for one picture of 256 samples (Method::picture).
 struct Verdicts {
     std::uint64_t pass = 0, fail = 0, inconclusive = 0;
+    /// FAILs by the difference with the smallest p of the first stage. In the others that one was not
+    /// confirmed, and another was.
+    std::uint64_t by_strongest = 0;
+    /// The smallest error that a PASS calls detectable in its least sensitive stratum; infinite if none.
+    double least_stated = std::numeric_limits<double>::infinity();
     [[nodiscard]] std::uint64_t trials() const { return pass + fail + inconclusive; }
 };
 Verdicts measure_verdicts(golden::Method method, Noise golden_noise, Noise candidate_noise,

@@ -77,10 +77,11 @@ std::string name(Noise noise)
     return "";
 }
 
-SimulatedRenderer::SimulatedRenderer(int size, Noise noise, const Layout& layout)
-    : size_(size), population_{make_population(noise, 1.0, 1),
-                               make_population(noise, layout.light_in_shadow, 2),
-                               make_population(noise, layout.light_in_caustic, 3)}
+SimulatedRenderer::SimulatedRenderer(int size, Noise noise, const Layout& layout,
+                                     std::uint64_t population)
+    : size_(size), population_{make_population(noise, 1.0, 3 * population + 1),
+                               make_population(noise, layout.light_in_shadow, 3 * population + 2),
+                               make_population(noise, layout.light_in_caustic, 3 * population + 3)}
 {
     const auto pixels = static_cast<double>(size * size);
     const double caustic_radius = std::sqrt(layout.caustic_share * pixels / std::numbers::pi);

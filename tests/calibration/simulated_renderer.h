@@ -53,7 +53,8 @@ inline constexpr std::array fresh_layouts = {
 /// paths that must hit a small lamp, behave.
 class SimulatedRenderer {
 public:
-    SimulatedRenderer(int size, Noise noise, const Layout& layout = {});
+    /// `population`: another number draws the populations of samples anew.
+    SimulatedRenderer(int size, Noise noise, const Layout& layout = {}, std::uint64_t population = 0);
 
     /// Batch number `batch` of the render with this seed. Red and green have the same noise, as under
     /// white light; the noise of blue is independent.

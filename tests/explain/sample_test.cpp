@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
 #include <map>
 
 namespace {
@@ -179,6 +180,55 @@ TEST(ExplainSample, WalksHaveTheDensitiesAndWeightsOfTheirBounces)
         }
     }
     EXPECT_GT(bounces, 1000u);
+}
+
+// Of two strategies, p_0 and p_1 give both weights. Some 10 roundings each.
+TEST(ExplainSample, DensitiesOfThePathTracerGiveItsWeights)
+{
+    std::size_t compared = 0;
+    for (const char* name : {"cornell_glass", "all_emitters"}) {
+        const scenes::Scene scene = transport_test::our_scene(name);
+        const ref::World world(scene, 24, 16);
+        for (std::uint32_t i = 0; i < 200; ++i) {
+            const Sample sample =
+                explain::explain_sample(world, Integrator::path, {.seed = 5, .max_edges = 8}, {5, i, i});
+            for (const Strategy& strategy : sample.strategies) {
+                if (!strategy.made) continue;
+                double sum = 0.0;
+                double squares = 0.0;
+                for (const explain::Density& density : strategy.densities) {
+                    sum += density.relative;
+                    squares += density.relative * density.relative;
+                }
+                EXPECT_NEAR(strategy.made->weight * sum, 1.0, 1e-14);
+                EXPECT_NEAR(strategy.power * squares, 1.0, 1e-14);
+                ++compared;
+            }
+        }
+    }
+    EXPECT_GT(compared, 300u);
+}
+
+// A matte surface sends a walk off at the cosine sqrt(1 - u), with the first number u of the bounce.
+TEST(ExplainSample, TellsTheNumbersThatTheWalksUsed)
+{
+    std::map<ref::Event, std::size_t> compared;
+    const scenes::Scene scene = transport_test::our_scene("cornell_glass");
+    const ref::World world(scene, 24, 16);
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        const Sample sample =
+            explain::explain_sample(world, Integrator::bdpt, {.seed = 5, .max_edges = 8}, {5, i, i});
+        for (const explain::Draw& draw : sample.draws) {
+            const bool eye = draw.event == ref::Event::eye_bounce;
+            if ((!eye && draw.event != ref::Event::light_bounce) || draw.use[0] == nullptr) continue;
+            const explain::Step& step = (eye ? sample.eye : sample.light).steps.at(draw.vertex);
+            ASSERT_TRUE(step.bounce);
+            EXPECT_NEAR(cosine(step.vertex, step.bounce->wi), std::sqrt(1.0 - draw.uniforms[0]), 1e-12);
+            ++compared[draw.event];
+        }
+    }
+    EXPECT_GT(compared[ref::Event::eye_bounce], 100u);
+    EXPECT_GT(compared[ref::Event::light_bounce], 100u);
 }
 
 } // namespace

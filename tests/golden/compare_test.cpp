@@ -1,4 +1,5 @@
 #include "golden/compare.h"
+#include "golden/reason.h"
 #include "tests/golden/simulated_golden.h"
 #include "tests/images/temporary_folder.h"
 
@@ -44,7 +45,12 @@ TEST_F(Compare, ARightPicturePassesAndSaysWhatItCouldHaveSeen)
         EXPECT_LT(detectable, 0.02);
     }
     ASSERT_TRUE(result.least_sensitive_stratum);
-    EXPECT_GT(result.findings[*result.least_sensitive_stratum].detectable, result.detectable[0]);
+    const golden::Finding& least = result.findings[*result.least_sensitive_stratum];
+    EXPECT_GT(least.detectable, result.detectable[0]);
+    EXPECT_NE(result.reason.find("; of " + describe_place(least) + " alone, one of " +
+                                 golden::say_percent(least.detectable) + "."),
+              std::string::npos)
+        << result.reason;
     EXPECT_EQ(result.findings.size(), 3 * reference().functionals.size());
     EXPECT_EQ(result.golden_batches, 512u);
     EXPECT_EQ(result.coverage, 1.0);
@@ -122,6 +128,31 @@ TEST_F(Compare, ASuspicionThatAFreshRenderConfirmsFails)
     ASSERT_EQ(result.stages.size(), 2u);
     EXPECT_EQ(result.stages[1].batches, 256u);
     EXPECT_LT(result.stages[1].p, result.stages[1].level);
+}
+
+TEST_F(Compare, EverySuspicionIsTestedOnTheFreshRenderNotTheStrongestAlone)
+{
+    // The first stage is too dark, most of all the whole picture; the second only in the shadow.
+    const golden::RenderStage render =
+        stages({{.everywhere = 0.987, .in_shadow = 0.975}, {.everywhere = 1.013, .in_shadow = 0.94}});
+    const Comparison first = golden::compare(
+        reference(),
+        [&] {
+            Candidate candidate(reference().functionals);
+            render(0, 64, candidate);
+            return candidate;
+        }(),
+        Method::ranks);
+    const Comparison result = golden::compare(reference(), render, Method::ranks);
+    EXPECT_EQ(result.verdict, Verdict::fail) << result.reason;
+    ASSERT_EQ(result.stages.size(), 2u);
+    EXPECT_LT(result.stages[1].p, result.stages[1].level);
+    ASSERT_TRUE(first.suspicion && result.suspicion);
+    EXPECT_NE(*result.suspicion, *first.suspicion) << first.reason;
+    const golden::Finding& confirmed = result.findings[*result.suspicion];
+    EXPECT_GT(confirmed.adjusted_p, result.p);
+    EXPECT_LT(confirmed.adjusted_p, CompareOptions{}.screening_level);
+    EXPECT_NE(result.reason.find(describe_place(confirmed)), std::string::npos) << result.reason;
 }
 
 TEST_F(Compare, ASuspicionThatAFreshRenderDoesNotConfirmIsDropped)

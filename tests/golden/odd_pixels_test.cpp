@@ -58,6 +58,7 @@ TEST_F(OddPixel, ThatIsNegativeFails)
     const auto found = look(image);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].kind, Oddity::negative);
+    EXPECT_TRUE(found[0].wrong);
     EXPECT_EQ(found[0].place, (PixelPosition{20, 9}));
     EXPECT_EQ(found[0].channel, 1u);
     EXPECT_EQ(found[0].value, -5.0);
@@ -85,6 +86,7 @@ TEST_F(OddPixel, ThatIsClippedFails)
     const auto found = look(image);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].kind, Oddity::clipped);
+    EXPECT_TRUE(found[0].wrong); // the mean, too, would make this picture fail
     EXPECT_EQ(found[0].value, 1.0);
     EXPECT_GT(found[0].expected, 1.3);
     EXPECT_GT(found[0].pixels.size(), 20u);
@@ -117,6 +119,7 @@ TEST_F(OddPixel, ThatIsDeadFails)
     const auto found = look(image);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].kind, Oddity::dark);
+    EXPECT_TRUE(found[0].wrong);
     EXPECT_EQ(found[0].place, (PixelPosition{25, 3}));
     const Comparison result = judge(image);
     EXPECT_EQ(result.verdict, Verdict::fail);

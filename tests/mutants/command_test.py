@@ -79,6 +79,23 @@ class Command(unittest.TestCase):
         self.assertEqual(err, "mutants: test_toy does not build without a mutant:\nerror: no compiler\n")
         self.assertFalse(self.table.with_suffix(".json").exists())
 
+    def test_two_at_once(self):
+        with mutants.alone(self.project.place):
+            status, _, err = self.run_command()
+        self.assertEqual(status, 1)
+        self.assertIn("another runner uses", err)
+
+    def test_sources_that_change_after_the_start(self):
+        measure = mutants.workers.measure
+
+        def slow(*arguments):
+            measure(*arguments)
+            (self.project.root / "ref/sum/new.sh").write_text("")
+
+        with mock.patch.object(mutants.workers, "measure", slow):
+            status, _, err = self.run_command()
+        self.assertEqual((status, err), (1, "mutants: the sources have changed since the start: start again\n"))
+
     def test_a_list_tries_nothing(self):
         status, out, _ = self.run_command("--list", "minus")
         self.assertEqual((status, out), (0, "minus  title of minus\n"))
@@ -89,13 +106,13 @@ class Words(unittest.TestCase):
     def test_on_a_terminal_and_elsewhere(self):
         terminal = io.StringIO()
         terminal.isatty = lambda: True
-        for status, expected in ((io.StringIO(), ""), (terminal, "3 of 4; about ")):
+        for status, expected in ((io.StringIO(), ""), (terminal, "3 of 4; about 2 minutes left")):
             out = io.StringIO()
             progress = Progress(2, 4, 5, out, status)
+            progress.begin -= 100
             progress.result(Result("m", "f", "", Outcome.SURVIVED))
             self.assertIn(expected, status.getvalue())
             self.assertEqual(out.getvalue(), "m      SURVIVED  (build 0.0 s, tests 0.0 s)\n")
-        self.assertIn("seconds left", terminal.getvalue())
 
 
 if __name__ == "__main__":

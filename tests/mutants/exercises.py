@@ -9,6 +9,7 @@ import sys
 
 import mutant
 import workers
+from keep import alone
 from mutants import guarded
 from project import Project, is_test_program
 from trial import noticed
@@ -78,6 +79,12 @@ def main(argv):
     except ValueError as error:
         parser.error(str(error))
     project = Project(builders=arguments.jobs)
+    with alone(project.place):
+        return run_all(project, chosen)
+
+
+def run_all(project, chosen):
+    """The exit status: 1 if a claim is not true."""
     copy = project.copy(0)
     copy.bring_up_to_date()
     print("First the tests of all of them, with nothing removed", flush=True)

@@ -13,17 +13,17 @@ import collections
 import dataclasses
 import functools
 import hashlib
-import pathlib
 import re
 import sys
 
+import judged
 import name_kinds as names
 import operator_kinds as operators
 import statement_kinds as statements
 from cpp_source import Source
+from mutant import ROOT, Mutant
 from operands import declared_types
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 # The test programs that see a change in a folder, the cheapest first.
 PROGRAMS = {
     "ref/trees": ("test_ref_trees", "test_ref_transport"),
@@ -58,9 +58,8 @@ class Candidate:
         before, after = (" ".join(text.split()) for text in (self.original, self.replaced))
         return f"{self.path}: {before} -> {after or '(nothing)'}"
 
-    @property
-    def programs(self):
-        return PROGRAMS[self.folder]
+    def mutant(self):
+        return Mutant(self.name, self.title, self.diff, PROGRAMS[self.folder], equivalent=judged.equivalent().get(self.name, ""))
 
 
 def diff_of(path, lines, first, original, replaced):
@@ -140,6 +139,14 @@ def sample(found, size=SAMPLE, seed=SEED):
                         break
         chosen += taken[: counts[folder]]
     return chosen
+
+
+def mutants(names=(), size=SAMPLE, seed=SEED):
+    """The mutants of these names, in this order, or those of a sample. Raises KeyError for an unknown name."""
+    if names:
+        known = {candidate.name: candidate for folder in candidates().values() for candidate in folder}
+        return [known[name].mutant() for name in names]
+    return [candidate.mutant() for candidate in sample(candidates(), size, seed)]
 
 
 def _rank(seed, name):

@@ -7,12 +7,8 @@ import sys
 import tempfile
 import unittest
 
-try:
-    import judged
-except ImportError:
-    print("SKIPPED: python3 is older than 3.11, which reads TOML")
-    sys.exit(77)
 import generate
+import judged
 from cpp_source import Source
 from operands import declared_types
 
@@ -38,6 +34,14 @@ class Sample(unittest.TestCase):
     def test_changes_no_line_twice(self):
         lines = [(c.path, c.line) for c in generate.sample(generate.candidates(), 400)]
         self.assertEqual(len(lines), len(set(lines)))
+
+    def test_gives_the_runner_a_mutant_for_each(self):
+        chosen = generate.sample(generate.candidates(), 8)
+        self.assertEqual([m.name for m in generate.mutants(size=8)], [c.name for c in chosen])
+        mutant = generate.mutants([chosen[2].name])[0]
+        self.assertEqual(mutant.programs, ("test_ref_transport",))
+        self.assertEqual([f"{mutant.files[0]}:"], mutant.title.split()[:1])
+        self.assertRaises(KeyError, generate.mutants, ["no_such_mutant"])
 
     def test_each_folder_has_its_share(self):
         self.assertEqual(generate.shares({"a": 300, "b": 100}, 100), {"a": 65, "b": 35})
@@ -78,6 +82,7 @@ class PresentSources(unittest.TestCase):
             self.assertEqual(result.stderr, "")
 
 
+@unittest.skipIf(sys.version_info < (3, 11), "python3 is older than 3.11, which reads TOML")
 class Judged(unittest.TestCase):
     def test_what_was_judged_is_still_there(self):
         self.assertEqual(judged.faults({c.name for c in every()}), [])

@@ -6,21 +6,28 @@
 What a test could tell is not judged: the test is written.
 """
 
+import functools
 import pathlib
-import tomllib
 
 FILE = pathlib.Path(__file__).with_name("judged.toml")
 
 
+def entries(file):
+    import tomllib  # of Python 3.11: to list mutants without judging needs none
+
+    return tomllib.loads(file.read_text())
+
+
+@functools.cache
 def equivalent(file=FILE):
     """The names of the mutants that no test can see, each with the reason."""
-    return {name: entry["equivalent"] for name, entry in tomllib.loads(file.read_text()).items()}
+    return {name: entry["equivalent"] for name, entry in entries(file).items()}
 
 
 def faults(names, file=FILE):
     """Sentences about entries that are wrong. `names`: of all mutants that the generator makes."""
     found = []
-    for name, entry in tomllib.loads(file.read_text()).items():
+    for name, entry in entries(file).items():
         if name not in names:
             found.append(f"{file.name}: there is no mutant {name}: its line has changed. Judge it again, or remove the entry.")
         if not isinstance(entry, dict) or list(entry) != ["equivalent"] or not str(entry["equivalent"]).strip():

@@ -1,7 +1,9 @@
 """Files that are whole or not there, and the outcomes of mutants that were tried."""
 
+import contextlib
 import dataclasses
 import enum
+import fcntl
 import json
 import os
 import threading
@@ -18,6 +20,11 @@ class Outcome(str, enum.Enum):
     @property
     def killed(self):
         return self in (Outcome.KILLED, Outcome.CRASH, Outcome.TIMEOUT)
+
+
+    def by(self, test):
+        """The outcome in words, with the test."""
+        return self.value + (f" {'by' if self is Outcome.KILLED else 'in'} {test}" if test else "")
 
 
 @dataclasses.dataclass
@@ -54,6 +61,18 @@ def write_whole(path, text):
         temporary.replace(path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def alone(place):
+    """While this runs, no other runner uses the copies below `place`. Raises RuntimeError if one does."""
+    place.mkdir(parents=True, exist_ok=True)
+    with (place / "lock").open("w") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise RuntimeError(f"another runner uses {place}: wait for its end") from None
+        yield  # the system removes the lock with the process
 
 
 class Kept:

@@ -99,15 +99,18 @@ class Kinds(unittest.TestCase):
     def test_swapped_name(self):
         self.expect("swapped_name", "const int k = s + 1;", "const int k = t + 1;")
         self.expect("swapped_name", "g(p.pdf_fwd, p.pdf_rev);", "g(p.pdf_rev, p.pdf_rev);", "g(p.pdf_fwd, p.pdf_fwd);")
+        self.expect("swapped_name", "const bool first = g();\nconst Vertex last = h();\nk(first, last, first, last);")
         self.expect("swapped_name", "return p.light;\nfor (int left : g()) h(left);")  # no other one is there
 
     def test_swapped_arguments(self):
         self.expect("swapped_arguments", "g(a, b, v);\nstd::min(a, b);", "g(b, a, v);")
+        self.expect("swapped_arguments", "int n = 0;\nint many[3];\ng(n, many);")
         self.expect("swapped_arguments", "g(u[1], u[2]);", "g(u[2], u[1]);")
 
     def test_negate_condition(self):
         self.expect("negate_condition", "if (a < b) g();", "if (!(a < b)) g();")
         self.expect("negate_condition", "x = s == 0 ? a : b;", "x = !(s == 0) ? a : b;")
+        self.expect("negate_condition", "return g(s) ? a : b;", "return !(g(s)) ? a : b;")
         self.expect("negate_condition", "if constexpr (n) g();\nif (!c) g();\nif (auto* p = h()) g();")
 
     def test_skip_update(self):

@@ -107,4 +107,4 @@ def kept(names=(), folder=PATCHES):
     """The mutants of patches/ with these names, in this order, or all. Raises KeyError for an unknown name, ValueError for a
     patch that cannot be read."""
     known = {path.stem: path for path in sorted(folder.glob("*.patch"))}
-    return [parse(name, known[name].read_text()) for name in (names or known)]
+    return [parse(name, known[name].read_text()) for name in (dict.fromkeys(names) or known)]

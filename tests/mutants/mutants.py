@@ -15,7 +15,7 @@ import time
 import mutant as mutant_file
 import tables
 import workers
-from keep import Kept, write_whole
+from keep import Kept, alone, write_whole
 from processes import Stopped
 from progress import Progress, line
 from project import Project
@@ -64,6 +64,11 @@ def chosen(arguments, error):
 
 def try_chosen(project, mutants, jobs, all_tests=False, again=False, out=None, status=None):
     """(results in the order of `mutants`, Unchanged). Raises Unusable."""
+    with alone(project.place):
+        return _try_alone(project, mutants, jobs, all_tests, again, out or sys.stdout, status or sys.stderr)
+
+
+def _try_alone(project, mutants, jobs, all_tests, again, out, status):
     sources = digest(project.root)
     unchanged = Unchanged(project, sources)
     kept = Kept(project.place / "results.jsonl", sources)
@@ -71,8 +76,8 @@ def try_chosen(project, mutants, jobs, all_tests=False, again=False, out=None, s
     waiting = [m for m in mutants if m.name not in known]
     width = max((len(m.name) for m in mutants), default=0)
     for result in known.values():
-        print(line(result, width) + ", known", file=out or sys.stdout, flush=True)
-    progress = Progress(len(waiting), len(mutants), width, out or sys.stdout, status or sys.stderr)
+        print(line(result, width) + ", known", file=out, flush=True)
+    progress = Progress(len(waiting), len(mutants), width, out, status)
     try:
         workers.measure(project, unchanged, waiting, jobs, progress.say)
         for mutant, result in workers.try_all(project, unchanged, waiting, jobs, all_tests):

@@ -1,6 +1,6 @@
 """The kinds of mutants that take one name or index for another; edits as in operator_kinds.py."""
 
-from operands import end_of_operand, still_used
+from operands import add_declared, end_of_operand, still_used
 from operator_kinds import binary, ends_operand, in_head_of_for
 
 PAIRS = (
@@ -61,12 +61,16 @@ def _exchange_names(source, partners, members_only):
             continue
         head, _, last = source.bodies[source.function[i]] if source.function[i] >= 0 else (i, i, i)
         there = {texts[j - 1] in (".", "->") for j in source.places[other] if is_member or head <= j < last}
+        if not is_member:
+            add_declared(local := {}, source, head, last)
+            if local.get(texts[i]) != local.get(other):
+                continue
         if (is_member if members_only else is_member in there) and still_used(source, i, i + 1):
             yield source.tokens[i].start, source.tokens[i].end, other
 
 
 def swapped_name(source, types):
-    """s for t, and other pairs of names with the same type in all of their functions."""
+    """s for t, and other pairs of names, where both have the same type."""
     yield from _exchange_names(source, PARTNER, members_only=False)
 
 

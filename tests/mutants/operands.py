@@ -70,18 +70,24 @@ def declared_types(sources):
     """The names that are declared in these files (variables, members, functions), each with the set of its types."""
     types = {}
     for source in sources:
-        texts, tokens = source.texts, source.tokens
-        for i in range(1, len(tokens) - 1):
-            if tokens[i].kind != "name" or texts[i + 1] not in ("=", ";", ",", ")", "{", "(", ":", "["):
-                continue
-            j = i - 1
-            while j > 0 and (texts[j] == "const" or (texts[j] in ("&", "*") and not source.spaced(j))):
-                j -= 1
-            if tokens[j].kind == "name" and texts[j] not in NO_TYPES:
-                types.setdefault(texts[i], set()).add(texts[j] + ("*" if "*" in texts[j:i] else ""))
-            elif texts[j] in (">", "auto") and not source.spaced(j):
-                types.setdefault(texts[i], set()).add("?")
+        add_declared(types, source, 1, len(source.tokens) - 1)
     return types
+
+
+def add_declared(types, source, begin, end):
+    """Adds the names that the tokens begin ... end - 1 declare."""
+    texts, tokens = source.texts, source.tokens
+    for i in range(begin, end):
+        if tokens[i].kind != "name" or texts[i + 1] not in ("=", ";", ",", ")", "{", "(", ":", "["):
+            continue
+        j = i - 1
+        while j > 0 and (texts[j] == "const" or (texts[j] in ("&", "*") and not source.spaced(j))):
+            j -= 1
+        if tokens[j].kind == "name" and texts[j] not in NO_TYPES:
+            kind = texts[j] + ("*" if "*" in texts[j:i] else "") + ("[]" if texts[i + 1] == "[" else "")
+            types.setdefault(texts[i], set()).add(kind)
+        elif texts[j] in (">", "auto") and not source.spaced(j):
+            types.setdefault(texts[i], set()).add("?")
 
 
 def is_scalar(source, first, end, types):

@@ -93,12 +93,10 @@ def and_or(source, types):
 def level(source, i, boundary=BOUNDARY):
     """The indices of the tokens of the expression around i, without what is in brackets."""
     found, j = [], i
-    while j > 0 and source.texts[j] not in boundary:
+    while j >= 0 and source.texts[j] not in boundary:
+        j = source.partner[j] if source.texts[j] in (")", "]") else j
         found.append(j)
         j -= 1
-        if source.texts[j] in (")", "]") and j in source.partner:
-            j = source.partner[j] - 1
-            found.append(j + 1)
     j = i + 1
     while j < len(source.texts) and source.texts[j] not in boundary - {"(", "["} and source.texts[j] not in (")", "]"):
         found.append(j)

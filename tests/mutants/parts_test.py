@@ -95,10 +95,12 @@ class Copies(unittest.TestCase):
             subprocess.run(["git", "init", "-q", folder], check=True)
             inner = pathlib.Path(folder, "build/inner")
             project = Toy(inner)
-            self.assertEqual(sources.apply(toy_mutant("m", "echo 1").diff, inner, "--check"), "")
-            self.assertEqual(sources.apply(toy_mutant("m", "echo 1").diff, inner), "")
+            # With this line, git takes the paths as relative to the root of the working tree.
+            diff = "diff --git a/ref/sum/sum.sh b/ref/sum/sum.sh\n" + toy_mutant("m", "echo 1").diff
+            self.assertEqual(sources.apply(diff, inner, "--check"), "")
+            self.assertEqual(sources.apply(diff, inner), "")
             self.assertIn("echo 1", (inner / "ref/sum/sum.sh").read_text())
-            self.assertNotEqual(sources.apply(toy_mutant("m", "echo 1").diff, inner, "--check"), "")
+            self.assertNotEqual(sources.apply(diff, inner, "--check"), "")
             self.assertIn("ref/sum/sum.sh", sources.listed(project.root))
 
     def test_only_what_changed_gets_a_new_time(self):
@@ -117,12 +119,10 @@ class Copies(unittest.TestCase):
 
 class Waiting(unittest.TestCase):
     def test_a_worker_stays_with_a_file_and_helps_at_the_end(self):
-        made = [Mutant(f"{f}{i}", "", f"+++ b/ref/{f}\n", ("test_toy",)) for f in "ab" for i in range(4)]
+        made = [Mutant(f"{f}{i}", "", f"+++ b/ref/{f}\n", ("test_toy",)) for f, n in (("a", 5), ("b", 2)) for i in range(n)]
         line = Line(made)
-        first, second = line.next(0), line.next(1)
-        self.assertNotEqual(first.files, second.files)
-        self.assertEqual([line.next(0).files for _ in range(3)], [first.files] * 3)
-        self.assertEqual([line.next(0).files for _ in range(3)], [second.files] * 3)
+        files = [line.next(worker).files[0] for worker in (0, 1, 1, 1, 0, 0, 0)]
+        self.assertEqual(files, [f"ref/{f}" for f in "abbaaaa"])
         self.assertIsNone(line.next(0))
         self.assertIsNone(line.next(1))
 

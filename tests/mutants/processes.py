@@ -1,7 +1,6 @@
 """Commands with a time limit, and their end: no process of a command outlives it."""
 
 import os
-import pathlib
 import signal
 import subprocess
 import tempfile
@@ -102,11 +101,10 @@ def _signal_group(group, number):
 def _session(leader):
     """The processes of a session. (A dead leader's number is not given to another process while its session lives.)"""
     found = []
-    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+    for name in filter(str.isdigit, os.listdir("/proc")):
         try:
-            fields = (folder / "stat").read_text().rpartition(")")[2].split()
-        except (OSError, ValueError):
-            continue
-        if fields[3] == str(leader):  # state, parent, group, session
-            found.append(int(folder.name))
+            if os.getsid(int(name)) == leader:
+                found.append(int(name))
+        except (ProcessLookupError, PermissionError):
+            pass
     return found

@@ -44,8 +44,7 @@ class Progress:
 
 
 def line(result, width):
-    by = f" by {result.killed_by}" if result.killed_by else ""
     times = f"build {result.build_seconds:.1f} s, tests {result.test_seconds:.1f} s"
-    more = f", {len(result.killers)} tests" if result.all_tests and result.killers else ""
+    more = f", tests that notice it: {len(result.killers)}" if result.all_tests and result.killers else ""
     judged = " (equivalent)" if result.equivalent else ""
-    return f"{result.name:{width}}  {result.outcome.value}{by}{more}{judged}  ({times})"
+    return f"{result.name:{width}}  {result.outcome.by(result.killed_by)}{more}{judged}  ({times})"

@@ -65,8 +65,9 @@ class Project:
         environment = {"RC_PARAMS": "seed=1", "TMPDIR": str(scratch), "TEST_TMPDIR": str(scratch), "GTEST_COLOR": "no"}
         megabytes = 0 if preset == "tsan" else _megabytes_of_machine() // 4
         path = self.path_of(folder, preset, program)
-        place = folder / "build" / preset
-        ended = processes.run([path, *arguments], place if place.is_dir() else folder, seconds, environment, megabytes)
+        # Another program than one with tests may name files of the sources.
+        place = path.parent if is_test_program(program) else folder
+        ended = processes.run([path, *arguments], place, seconds, environment, megabytes)
         if ended.status == -signal.SIGKILL:
             raise RuntimeError(f"something else ended {program}: is there too little memory for so many workers?")
         return ended

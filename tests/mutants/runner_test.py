@@ -1,7 +1,7 @@
 """The runner on a toy project: each outcome, wrong claims, a second start, and an end by Ctrl-C."""
 
+import dataclasses
 import io
-import pathlib
 import tempfile
 import time
 import unittest
@@ -12,6 +12,7 @@ import mutants
 import trial
 import workers
 from keep import Outcome
+from processes_test import ends_soon
 from toy import Toy, toy_mutant
 from unchanged import Unusable
 
@@ -70,6 +71,11 @@ class Outcomes(Runner):
         self.assertIn("sum.sh", result.detail)
         self.assertFalse(result.fine)
 
+    def test_a_patch_that_changes_nothing(self):
+        made = toy_mutant("same", MINUS)
+        result = self.run_mutants(dataclasses.replace(made, diff=made.diff.replace("$1 - $2", "$1 + $2")))
+        self.assertEqual((result.outcome, result.detail), (Outcome.NO_PATCH, "the patch changes nothing"))
+
     def test_a_hang_is_killed_by_time_out(self):
         self.short = True
         result = self.run_mutants(toy_mutant("hangs", HANGS, ["Sum.Adds"]))
@@ -81,7 +87,7 @@ class Outcomes(Runner):
         self.assertEqual((result.outcome, result.killed_by), (Outcome.CRASH, "Sum.Adds"))
 
     def test_an_end_before_the_last_test_is_a_crash(self):
-        result = self.run_mutants(toy_mutant("ends", "kill -TERM $$", ["Sum.Adds"]))
+        result = self.run_mutants(toy_mutant("ends", "kill -USR1 $$", ["Sum.Adds"]))  # with exit status 0
         self.assertEqual((result.outcome, result.killed_by), (Outcome.CRASH, "Sum.Adds"))
 
     def test_an_equivalent_mutant_may_survive_and_must(self):
@@ -116,6 +122,8 @@ class Claims(Runner):
     def test_cheap_tests_come_first(self):
         self.run_mutants(toy_mutant("minus", MINUS))
         self.assertNotIn("Slow.Waits", self.project.ran[-1][1])
+        result = self.run_mutants(toy_mutant("claimed", MINUS + " # claimed", ["Slow.Waits", "Sum.Adds"]))
+        self.assertEqual(result.killed_by, "Sum.Adds")
 
 
 class Starts(Runner):
@@ -183,7 +191,7 @@ class Starts(Runner):
         with self.assertRaises(KeyboardInterrupt):
             list(workers.side_by_side(2, lambda number, put: (work, interrupt)[number](number, put)))
         self.assert_restored()
-        self.assertFalse(pathlib.Path(f"/proc/{pid.read_text().strip()}").exists())
+        self.assertTrue(ends_soon(pid.read_text().strip()))
 
 
 if __name__ == "__main__":

@@ -69,6 +69,8 @@ class Copy:
         before = {name: _bytes(self.folder / name) for name in mutant.files}
         if complaint := apply(mutant.diff, self.folder):
             return complaint.splitlines()[0]
+        if all(_bytes(self.folder / name) == content for name, content in before.items()):
+            return "the patch changes nothing"
 
         def take_back():
             for name, content in before.items():

@@ -4,6 +4,7 @@ What was measured is kept in measured.json, with the hash of the sources.
 """
 
 import json
+import threading
 
 import gtest
 from keep import write_whole
@@ -27,6 +28,7 @@ class Unchanged:
             kept = json.loads(self.file.read_text())
         except (OSError, ValueError):
             kept = {}
+        self._lock = threading.Lock()
         self.times = kept["times"] if kept.get("sources") == digest else {}
 
     def missing(self, mutants):
@@ -47,18 +49,20 @@ class Unchanged:
         is_known = gtest.matching if is_test_program(key[1]) else lambda test, names: test in names
         return any(not is_known(test, known) for test in tests)
 
-    def measure(self, copy, preset, program, tests, say=lambda text: None):
-        """Builds and runs a program of a copy that is up to date. Raises Unusable if a test does not pass."""
-        say(f"unchanged sources: building {program} ({preset})")
+    def build(self, copy, preset, program):
+        """Builds a program of a copy that is up to date. Raises Unusable if that fails."""
         if error := self.project.build(copy.folder, preset, program):
             raise Unusable(f"{program} does not build without a mutant:\n{error}")
-        say(f"unchanged sources: running {program} ({preset})")
+
+    def measure(self, copy, preset, program, tests):
+        """Runs a program that is built. Raises Unusable if a test does not pass."""
         if is_test_program(program):
             found = self._tests(copy, preset, program, tests)
         else:
             found = {test: self._run(copy, preset, program, [test]).seconds for test in dict.fromkeys(tests)}
-        self.times.setdefault(f"{preset}/{program}", {}).update(found)
-        write_whole(self.file, json.dumps({"sources": self.digest, "times": self.times}, indent=1))
+        with self._lock:
+            self.times.setdefault(f"{preset}/{program}", {}).update(found)
+            write_whole(self.file, json.dumps({"sources": self.digest, "times": self.times}, indent=1))
 
     def _tests(self, copy, preset, program, tests):
         ended = self._run(copy, preset, program, list(dict.fromkeys(tests)) if tests else ["*"])

@@ -6,7 +6,9 @@ import queue
 import threading
 
 import processes
+from sources import digest
 from trial import try_mutant
+from unchanged import Unusable
 
 
 class Line:
@@ -82,9 +84,23 @@ def measure(project, unchanged, mutants, workers, say):
     copy = project.copy(0)
     copy.bring_up_to_date()
     builders, project.builders = project.builders, workers
-    for (preset, program), tests in missing:
-        unchanged.measure(copy, preset, program, tests, say)
+    for (preset, program), _ in missing:
+        say(f"unchanged sources: building {program} ({preset})")
+        unchanged.build(copy, preset, program)
     project.builders = builders
+    waiting = collections.deque(missing)  # its methods are safe in threads
+
+    def work(number, put):
+        while True:
+            try:
+                (preset, program), tests = waiting.popleft()
+            except IndexError:
+                return
+            put(f"unchanged sources: running {program} ({preset})")
+            unchanged.measure(copy, preset, program, tests)
+
+    for text in side_by_side(min(workers, len(missing)), work):
+        say(text)
 
 
 def try_all(project, unchanged, mutants, workers, all_tests=False):
@@ -94,9 +110,11 @@ def try_all(project, unchanged, mutants, workers, all_tests=False):
     def work(number, put):
         copy = project.copy(number)
         copy.bring_up_to_date()
+        if digest(copy.folder) != unchanged.digest:
+            raise Unusable("the sources have changed since the start: start again")
         while mutant := line.next(number):
-            for program in mutant.programs[:1]:  # so that the time of the build is that of the mutant, and errors are its own
-                _build_unchanged(project, copy, mutant.preset, program)
+            # So that the time of the build is that of the mutant, and its errors are the mutant's.
+            _build_unchanged(project, copy, mutant.preset, mutant.programs[0])
             put((mutant, try_mutant(project, copy, unchanged.times, mutant, all_tests)))
 
     yield from side_by_side(max(1, min(workers, len(mutants))), work)

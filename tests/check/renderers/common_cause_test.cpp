@@ -10,6 +10,9 @@
 #include <algorithm>
 #include <functional>
 #include <random>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -95,6 +98,21 @@ TEST_F(CommonCause, NothingIsSaidWhereThereIsNothing)
     EXPECT_TRUE(common_causes(judged([](const check::SuiteScene&) { return true; })).empty());
     // Two scenes are too few.
     EXPECT_TRUE(common_causes({{{"glass"}, true}, {{"mirror"}, false}}).empty());
+}
+
+TEST_F(CommonCause, HasAChanceThatIsCorrectedForTheNumberOfSets)
+{
+    // Three of 20 scenes fail, all of them among those with glass. Two sets are looked at: the scenes
+    // with glass, and none, which each other feature has.
+    const auto is_said = [](std::size_t with_glass) {
+        std::vector<Judged> of;
+        for (std::size_t i = 0; i < 20; ++i)
+            of.push_back(
+                {i < with_glass ? std::set<std::string>{"glass"} : std::set<std::string>{}, i < 3});
+        return !common_causes(of).empty();
+    };
+    EXPECT_TRUE(is_said(4));  // 2 (4 over 3) / (20 over 3) = 0.7%
+    EXPECT_FALSE(is_said(5)); // 1.8%; for one set it would be 0.9%
 }
 
 TEST_F(CommonCause, IsRarelySaidOfScenesDrawnAtRandom)

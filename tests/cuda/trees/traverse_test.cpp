@@ -85,16 +85,20 @@ RC_GTEST_PROP(EdgeSignInFloat, IsExactHoweverCloseTheRayPasses, ()) // map: tria
 TEST(IntersectTriangleInFloat, CountsBothSidesEdgesAndCornersAndNothingEdgeOn)
 {
     const Triangle triangle{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}};
+    const Triangle reversed{{Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0)}};
     Hit hit{};
-    for (const float from : {1.0f, -1.0f})
-        for (const Vec3& at : {Vec3(0.25, 0.25, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0),
-                               Vec3(0.5, 0, 0), Vec3(0, 0.5, 0), Vec3(0.5, 0.5, 0)}) {
-            const Ray ray{at + Vec3(0, 0, from), infinity, Vec3(0, 0, -from)};
-            ASSERT_TRUE(intersect_triangle(fast::ShearedRay(ray), triangle, infinity, hit));
-            EXPECT_EQ(hit.t, 1.0f);
-            EXPECT_FALSE(
-                intersect_triangle(fast::ShearedRay(ray), triangle, 1, hit)); // t < limit, strictly
-        }
+    // The side that a ray comes from does not change the signs of the edge functions, the order of the
+    // vertices does.
+    for (const Triangle& one : {triangle, reversed})
+        for (const float from : {1.0f, -1.0f})
+            for (const Vec3& at : {Vec3(0.25, 0.25, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0),
+                                   Vec3(0.5, 0, 0), Vec3(0, 0.5, 0), Vec3(0.5, 0.5, 0)}) {
+                const Ray ray{at + Vec3(0, 0, from), infinity, Vec3(0, 0, -from)};
+                ASSERT_TRUE(intersect_triangle(fast::ShearedRay(ray), one, infinity, hit));
+                EXPECT_EQ(hit.t, 1.0f);
+                EXPECT_FALSE(
+                    intersect_triangle(fast::ShearedRay(ray), one, 1, hit)); // t < limit, strictly
+            }
     const Ray edge_on{Vec3(-1, 0.25, 0), infinity, Vec3(1, 0, 0)};
     EXPECT_FALSE(intersect_triangle(fast::ShearedRay(edge_on), triangle, infinity, hit));
     const Ray no_direction{Vec3(0.25, 0.25, 1), infinity, Vec3(0)};

@@ -294,4 +294,19 @@ TEST(EmissionOfOne, CarriesItsFluxAlone)
     }
 }
 
+// Nothing in the scene may lie behind the start of a walk from infinity: it would get no light, and
+// would cast no shadow.
+TEST(EmissionFromInfinity, StartsBeforeTheBallAroundTheScene)
+{
+    for (const EmitterKind kind : {EmitterKind::directional, EmitterKind::environment}) {
+        const scenes::Scene scene = with_one_emitter(kind);
+        const ref::World world(scene, 4, 4);
+        for (int i = 0; i < 100; ++i) {
+            const auto start =
+                *sample_emission(world, {0.5, 0.3, 0.6, 0.5}, {(i + 0.5) / 100, 0.37, 0.5, 0.5});
+            EXPECT_LT(glm::dot(start.ray.origin, start.ray.direction), -std::sqrt(3.0));
+        }
+    }
+}
+
 } // namespace

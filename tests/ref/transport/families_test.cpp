@@ -120,6 +120,16 @@ TEST_P(WithoutAFamily, ThePictureLacksItsWeightedLayers)
                         1e3 * 0x1p-53 * whole.pixels[i][channel]);
 }
 
+TEST(Families, WithoutEmissionHitsAPathEndsOneEdgeEarlier)
+{
+    // Its last vertex can only be an emission hit; the ray to it would be traced in vain.
+    ref::PathOptions options;
+    options.max_edges = 5;
+    EXPECT_EQ(last_edge(options), 5);
+    options.families.emission_hit = false;
+    EXPECT_EQ(last_edge(options), 4);
+}
+
 TEST(Families, ARendererRefusesThoseThatItsIntegratorHasNot)
 {
     const scenes::Scene scene = transport_test::our_scene("cornell_diffuse");

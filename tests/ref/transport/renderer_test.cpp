@@ -10,6 +10,7 @@
 #include <atomic>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
 namespace {
 
@@ -139,6 +140,20 @@ TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel) // map: splat
     for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(0.5, 1.0, 2.0));
 }
 
+// Batch n draws the samples n B ... n B + B - 1 of every pixel: none twice, none left out. Batches that
+// share samples make the same picture on average, but their error tells less than the truth. Four whole
+// numbers whose sum is 6 and whose squares add up to 14 can only be 0, 1, 2, 3.
+TEST(Render, DrawsEverySampleOfAPixelOnce)
+{
+    const auto its_number = [](const ref::World& /*world*/, const ref::PathOptions& /*options*/,
+                               const ref::SampleId& id, std::vector<Contribution>& out) {
+        const double number = id.sample;
+        out.push_back({id.pixel, 0, 2, Rgb(number, number * number, 1.0), 1.0});
+    };
+    const images::Film film = rendered(its_number, 2, 2);
+    for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(6.0 / 4.0, 14.0 / 4.0, 1.0));
+}
+
 /// One finite contribution; and for every third pixel one that is not finite, to its own pixel or as a
 /// splat.
 void sometimes_not_finite(const ref::World& /*world*/, const ref::PathOptions& /*options*/,
@@ -215,6 +230,35 @@ TEST(Render, PassesOnWhatAnIntegratorThrows)
     EXPECT_THROW(images::fill(film, 3, *ref::renderer(world, broken, {.batch_size = 2}, 2)),
                  std::runtime_error);
     EXPECT_EQ(film.batches(), 0u);
+}
+
+std::atomic<bool> thread_has_ended = false;
+
+struct SetsItAtTheEnd {
+    ~SetsItAtTheEnd() { thread_has_ended = true; }
+};
+
+TEST(Render, StopsTheOtherThreadsWhereAnIntegratorThrows)
+{
+    static std::atomic<int> samples = 0;
+    static const std::thread::id this_one = std::this_thread::get_id();
+    thread_has_ended = false;
+    // The second thread throws in its first sample. This one waits for its end, and so finds the error.
+    const auto broken = [](const ref::World& /*world*/, const ref::PathOptions& /*options*/,
+                           const ref::SampleId& /*id*/, std::vector<Contribution>& /*out*/) {
+        if (std::this_thread::get_id() != this_one) {
+            thread_local const SetsItAtTheEnd end;
+            static_cast<void>(end);
+            throw std::runtime_error("broken");
+        }
+        ++samples;
+        while (!thread_has_ended) std::this_thread::yield();
+    };
+    const ref::World world(scene(), width, height);
+    images::Film film(width, height);
+    EXPECT_THROW(images::fill(film, 1, *ref::renderer(world, broken, {.batch_size = 1}, 2)),
+                 std::runtime_error);
+    EXPECT_LE(samples, 16 * 16); // the rest of the tile that it had begun
 }
 
 TEST(Render, RefusesAFilmOfAnotherSize)

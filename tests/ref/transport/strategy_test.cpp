@@ -4,6 +4,7 @@
 
 #include "ref/transport/bdpt.h"
 #include "ref/transport/path_tracer.h"
+#include "ref/transport/subpath.h"
 #include "tests/ref/transport/scene_files.h"
 
 #include <gtest/gtest.h>
@@ -126,6 +127,27 @@ TEST(Connections, InTheIntegratingSphereAreAllTheSame) // map: geometric-term, i
     }
     // No pair is left out, however close its ends: k - 2 pairs for each sample.
     for (int k = 3; k <= longest; ++k) EXPECT_EQ(count[static_cast<std::size_t>(k)], (k - 2) * 4096);
+}
+
+// Walks that bounce by the same numbers leave their first surfaces at the same angle. Each sample is
+// then a special pair of walks, and the mean over all pairs is lost. Of 384 pairs of other walks, two
+// angles agree to 1e-9 with a probability of about 1e-6.
+TEST(Walks, OfTheEyeAndTheLightBounceByNumbersOfTheirOwn)
+{
+    const scenes::Scene scene = transport_test::our_scene("cornell_diffuse");
+    const ref::World world(scene, 24, 16);
+    const auto first_cosine = [](const std::vector<ref::Vertex>& walk) {
+        return cosine(walk[1], direction(walk[1], walk[2]));
+    };
+    int pairs = 0;
+    for (std::uint32_t i = 0; i < 24 * 16; ++i) {
+        const auto z = eye_subpath(world, {}, {13, i, 0}, 3);
+        const auto y = light_subpath(world, {}, {13, i, 0}, 3);
+        if (z.size() < 3 || y.size() < 3) continue;
+        ++pairs;
+        EXPECT_GT(std::abs(first_cosine(z) - first_cosine(y)), 1e-9);
+    }
+    EXPECT_GT(pairs, 100);
 }
 
 } // namespace

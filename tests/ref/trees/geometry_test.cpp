@@ -143,6 +143,51 @@ TEST(SurfacePoint, IsWhereTheRayMeetsTheSurfaceAndHasItsSideAndMaterial)
         }
 }
 
+TEST(SurfacePoint, HasTheSameErrorBoundInAReflectedScene)
+{
+    // Signs change no rounding. So a bound that is not the same everywhere lacks an absolute value.
+    Random random(12);
+    for (int i = 0; i < 100; ++i) {
+        const auto v = sliver(1, 3, random);
+        const Vec3 center = random.in_cube();
+        const double radius = random.uniform(0.1, 1);
+        const Vec3 b = random.barycentric();
+        const Vec3 d = random.direction();
+        const auto points = [&](const Vec3& signs) {
+            scenes::Scene scene = empty_scene();
+            scene.triangles = {{{signs * v[0], signs * v[1], signs * v[2]}, 0}};
+            scene.spheres = {{signs * center, radius, 0}};
+            const Geometry geometry(scene);
+            return std::array{triangle_point(geometry, 0, b), sphere_point(geometry, 0, signs * d)};
+        };
+        const Vec3 signs(i % 2 == 0 ? -1 : 1, i % 4 < 2 ? -1 : 1, i % 8 < 4 ? -1 : 1);
+        const auto here = points(Vec3(1));
+        const auto reflected = points(signs);
+        for (std::size_t k = 0; k < here.size(); ++k) {
+            EXPECT_EQ(reflected[k].position, signs * here[k].position);
+            EXPECT_EQ(reflected[k].error, here[k].error);
+        }
+    }
+}
+
+TEST(SeesFirst, SaysWhichOfTwoCoincidentSurfacesARayFromThereHits)
+{
+    scenes::Scene scene = empty_scene();
+    scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}, scenes::Emission{scenes::Rgb(1)}};
+    const std::array<Vec3, 3> v = {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    scene.triangles = {{v, 0}, {v, 1}};
+    const Geometry geometry(scene, ref::Builder::sah_leaf, scenes::coincidences(scene));
+    for (const double side : {1.0, -1.0})
+        for (const std::uint32_t triangle : {0u, 1u}) {
+            const SurfacePoint point = triangle_point(geometry, triangle, Vec3(0.5, 0.25, 0.25));
+            const Vec3 towards(0, 0, side);
+            const auto hit = intersect(geometry, {point.position + towards, -towards});
+            ASSERT_TRUE(hit);
+            EXPECT_EQ(hit->primitive, side > 0 ? 1u : 0u); // the emitter from its front only
+            EXPECT_EQ(sees_first(geometry, point, towards), hit->primitive == triangle);
+        }
+}
+
 struct Ball {
     double radius, distance;
 };
@@ -242,6 +287,21 @@ TEST(LeaveSurface, ARayMeetsNoLargerNeighbourInThePlane)
             }
             EXPECT_EQ(met, 0) << "larger by " << larger << " offset " << offset;
         }
+}
+
+// The position and the weights of a corner in the origin are exact. Of the error bound there is only the
+// part for the triangle test: 2 u a_i + 5 u a (derivation in geometry.cpp, 3.), no more than counted
+// there.
+TEST(LeaveSurface, TheErrorBoundHasRoomForTheRoundingOfTheTriangleTest)
+{
+    scenes::Scene scene = empty_scene();
+    scene.triangles = {{{Vec3(0), Vec3(1, 0.5, 0), Vec3(0, 2, 0.25)}, 0}};
+    const Vec3 extent(1, 2, 0.25);
+    const Vec3 error = triangle_point(Geometry(scene), 0, Vec3(1, 0, 0)).error;
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_GE(error[axis], u * (2 * extent[axis] + 5 * 2));
+        EXPECT_LE(error[axis], u * (2 * extent[axis] + 6 * 2) * (1 + 4 * u));
+    }
 }
 
 TEST(LeaveSurface, DoesNotDependOnHowLargeTheRestOfTheSceneIs)

@@ -77,6 +77,23 @@ RC_GTEST_PROP(BuildSah, SplitsEveryNodeAtTheLeastCost, ()) // map: sah-split
     }
 }
 
+TEST(BuildSah, TakesTheMostBalancedOfSplitsOfEqualCost)
+{
+    // Squares of side 1 across x: a split into i squares of extent a and 5 - i of extent b costs
+    // i (2 a + 1) + (5 - i) (2 b + 1). At 0, 1, 4, 5, 10 this is 45 for i = 2 and for i = 4, and more
+    // for the others.
+    for (const bool mirrored : {false, true}) {
+        std::vector<Aabb> boxes;
+        for (const double x : {0, 1, 4, 5, 10}) {
+            const double at = mirrored ? 10 - x : x;
+            boxes.push_back({Vec3(at, 0, 0), Vec3(at, 1, 1)});
+        }
+        const Tree tree = ref::build_sah(boxes);
+        const std::size_t left = primitives_below(tree, tree.nodes[0].children[0]).size();
+        EXPECT_EQ(left, mirrored ? 3u : 2u);
+    }
+}
+
 RC_GTEST_PROP(BuildSah, MakesALeafExactlyWhereThatIsNoDearer, ())
 {
     Random random(*rc::gen::arbitrary<std::uint64_t>());
