@@ -136,6 +136,8 @@ ExitStatus compare_command(const CompareCommand& options)
             options.scene.empty() && judged.comparison.method != golden::Method::ranks)
             std::puts(
                 "\n--scene FILE, the golden's scene, looks for mistakes of light transport as well");
+        if (judged.comparison.verdict == golden::Verdict::fail)
+            std::puts("\ndocs/bugs.md shows what usual mistakes look like");
     }
     return status_of(judged.comparison.verdict);
 }

@@ -7,7 +7,7 @@ PARTS = [
     ("Light transport", ["bdpt.md", "derivations.md", "leaving-a-surface.md", "contacts.md", "explain.md"]),
     ("Trees", ["trees.md", "tree-by-hand.md"]),
     ("The fast path", ["cuda-trees.md", "cuda-bdpt.md", "stages.md", "gpu.md"]),
-    ("Is it right?", ["comparison.md", "own-code.md", "export.md", "extremes.md", "mutants.md"]),
+    ("Is it right?", ["comparison.md", "own-code.md", "export.md", "extremes.md", "mutants.md", "bugs.md"]),
     ("How fast is it?", ["trade.md", "peers.md"]),
     ("Your turn", ["exercises.md", "extending.md"]),
 ]

@@ -111,10 +111,13 @@ TEST_F(CompareCommand, SeveralIndependentPicturesPass)
 TEST_F(CompareCommand, ADimmerPictureFails)
 {
     render(candidate, {"--integrator", "bdpt"});
-    EXPECT_EQ(compare({altered(1.0)}, {"-s", "512"}).status, 0);
+    const Outcome right = compare({altered(1.0)}, {"-s", "512"});
+    EXPECT_EQ(right.status, 0);
+    EXPECT_EQ(right.out.find("docs/bugs.md"), std::string::npos) << right.out;
     const Outcome outcome = compare({altered(0.95)}, {"-s", "512"});
     EXPECT_EQ(outcome.status, 1) << outcome.out;
     EXPECT_EQ(outcome.out.rfind("FAIL", 0), 0u) << outcome.out;
+    EXPECT_NE(outcome.out.find("docs/bugs.md"), std::string::npos) << outcome.out;
 }
 
 TEST_F(CompareCommand, NamesAConstantFactor)

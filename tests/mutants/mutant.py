@@ -11,6 +11,7 @@ writes it. The keys:
     Passes:    (may be absent) tests of the first program that must pass in spite of it
     Sanitizer: (may be absent) "thread": Fails needs a build with ThreadSanitizer. Passes are run without it
     Picture:   (may be absent) arguments of `plumbline render` for a picture that shows it
+    Cause:     (may be absent) a paragraph on cause and cure, in one line of Markdown. With it, the picture is in the gallery
     Removed:   (exercises only) what the patch takes away: it completes "without ..."
 
 For a program that is no test program (its name does not begin with test_), Fails and Passes are its arguments. The generator
@@ -24,7 +25,7 @@ import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PATCHES = pathlib.Path(__file__).with_name("patches")
-KEYS = ("Title", "Origin", "Symptom", "Program", "Fails", "Passes", "Sanitizer", "Picture", "Removed")
+KEYS = ("Title", "Origin", "Symptom", "Program", "Fails", "Passes", "Sanitizer", "Picture", "Cause", "Removed")
 NEEDED = KEYS[:5]
 PRESETS = {"": "release", "thread": "tsan"}  # by sanitizer
 
@@ -44,6 +45,7 @@ class Mutant:
     origin: str = "generated"
     symptom: str = ""
     picture: str = ""
+    cause: str = ""
     removed: str = ""
     equivalent: str = ""
 
@@ -77,6 +79,8 @@ def parse(name, text):
         raise ValueError(f"{name}.patch: has no {missing[0]}")
     if not empty_line or not re.search(r"^\+\+\+ b/\S", diff, re.MULTILINE):
         raise ValueError(f"{name}.patch: has no change (--- a/..., +++ b/...) after an empty line")
+    if "Cause" in values and "Picture" not in values:
+        raise ValueError(f"{name}.patch: Cause is for the gallery, and needs Picture")
     if values.get("Sanitizer", "") not in PRESETS:
         raise ValueError(f"{name}.patch: unknown sanitizer {values['Sanitizer']} (there is thread)")
 
@@ -94,6 +98,7 @@ def parse(name, text):
         origin=values["Origin"],
         symptom=values["Symptom"],
         picture=values.get("Picture", ""),
+        cause=values.get("Cause", ""),
         removed=values.get("Removed", ""),
     )
 
