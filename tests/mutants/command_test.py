@@ -9,6 +9,7 @@ import tempfile
 import unittest
 from unittest import mock
 
+import generate
 import mutants
 from keep import Outcome, Result
 from progress import Progress
@@ -66,6 +67,9 @@ class Command(unittest.TestCase):
             (["nothing"], "there is no mutant nothing"),
             (["-j", "0"], "-j 0: at least one worker"),
             (["--sample", "3"], "--sample and --seed are for --generated"),
+            (["--generated", "--sample", "1000000"], "--sample 1000000: there are "),
+            (["--generated", "--sample", "0"], "--sample 0: there are "),
+            (["--generated", "nothing"], "there is no mutant nothing"),
         ):
             with self.subTest(sentence):
                 status, _, err = self.run_command(*arguments)
@@ -100,6 +104,13 @@ class Command(unittest.TestCase):
         status, out, _ = self.run_command("--list", "minus")
         self.assertEqual((status, out), (0, "minus  title of minus\n"))
         self.assertEqual(self.project.ran, [])
+
+
+    @unittest.skipIf(sys.version_info < (3, 11), "python3 is older than 3.11, which reads TOML")
+    def test_generated_mutants_are_those_of_the_generator(self):
+        status, out, _ = self.run_command("--generated", "--sample", "7", "--list")
+        expected = [f"{made.name}  {made.title}" for made in generate.mutants(size=7)]
+        self.assertEqual((status, out.splitlines(), len(expected)), (0, expected, 7))
 
 
 class Words(unittest.TestCase):

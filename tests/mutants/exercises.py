@@ -10,7 +10,7 @@ import sys
 import mutant
 import workers
 from keep import alone
-from mutants import guarded
+from mutants import found, guarded
 from project import Project, is_test_program
 from trial import noticed
 
@@ -19,8 +19,8 @@ SECONDS_PER_TEST = 180  # the longest takes some seconds; what is removed may ma
 
 def exercises(names=()):
     """Those of the given names, in this order, or all. Raises KeyError for an unknown name."""
-    found = {made.name: made for made in mutant.kept() if made.removed}
-    return [found[name] for name in (names or found)]
+    known = {made.name: made for made in mutant.kept() if made.removed}
+    return [known[name] for name in (names or known)]
 
 
 def runs(exercise):
@@ -72,12 +72,7 @@ def main(argv):
     parser.add_argument("name", nargs="*", help="an exercise of docs/exercises.md; default: all")
     parser.add_argument("-j", "--jobs", type=int, default=workers.processors(), help="compilers at once")
     arguments = parser.parse_args(argv)
-    try:
-        chosen = exercises(arguments.name)
-    except KeyError as error:
-        parser.error(f"there is no exercise {error}")
-    except ValueError as error:
-        parser.error(str(error))
+    chosen = found("exercise", exercises, arguments.name, parser.error)
     project = Project(builders=arguments.jobs)
     with alone(project.place):
         return run_all(project, chosen)

@@ -14,7 +14,8 @@ import mutant
 import workers
 from gallery_page import PAGE, written
 from gallery_picture import draw
-from mutants import guarded
+from keep import alone, write_whole
+from mutants import found, guarded
 from project import Project
 
 PRESET = "release"
@@ -54,13 +55,13 @@ def size_of(path):
 def right_pictures(renderer, chosen, folder):
     """The file with the right picture for each line Picture."""
     renderer.build("the unchanged program")
-    found = {}
+    pictures = {}
     for made in chosen:
-        if made.picture not in found:
-            found[made.picture] = path = pathlib.Path(folder, f"right{len(found)}.pfm")
+        if made.picture not in pictures:
+            pictures[made.picture] = path = pathlib.Path(folder, f"right{len(pictures)}.pfm")
             if why := renderer.render(made.picture, path):
                 raise RuntimeError(f"{made.name}: the right program renders no picture: {why}")
-    return found
+    return pictures
 
 
 def draw_mutant(renderer, made, right, folder):
@@ -79,17 +80,7 @@ def draw_mutant(renderer, made, right, folder):
     return f"no picture: {why}" if why else "drawn"
 
 
-def main(argv):
-    parser = argparse.ArgumentParser(prog="./run gallery", description="Draws the pictures of docs/bugs.md from the mutants, and writes its sections.")
-    parser.add_argument("name", nargs="*", help="a mutant that has a line Cause; default: all")
-    names = parser.parse_args(argv).name
-    try:
-        chosen = [made for made in mutant.kept(names) if made.cause or names]
-    except KeyError as error:
-        parser.error(f"there is no mutant {error}")
-    if without := [made.name for made in chosen if not made.cause]:
-        parser.error(f"{without[0]} has no line Cause")
-    project = Project(builders=workers.processors())
+def draw_all(project, chosen):
     copy = project.copy(0)
     copy.bring_up_to_date()
     renderer = Renderer(project, copy)
@@ -98,8 +89,20 @@ def main(argv):
         right = right_pictures(renderer, chosen, folder)
         for number, made in enumerate(chosen, 1):
             print(f"{number} of {len(chosen)}, {made.name}: {draw_mutant(renderer, made, right[made.picture], folder)}", flush=True)
+
+
+def main(argv):
+    parser = argparse.ArgumentParser(prog="./run gallery", description="Draws the pictures of docs/bugs.md from the mutants, and writes its sections.")
+    parser.add_argument("name", nargs="*", help="a mutant that has a line Cause; default: all")
+    names = parser.parse_args(argv).name
+    chosen = [made for made in found("mutant", mutant.kept, names, parser.error) if made.cause or names]
+    if without := [made.name for made in chosen if not made.cause]:
+        parser.error(f"{without[0]} has no line Cause")
+    project = Project(builders=workers.processors())
+    with alone(project.place):
+        draw_all(project, chosen)
     page = mutant.ROOT / PAGE
-    page.write_text(written(page.read_text(), mutant.kept()))
+    write_whole(page, written(page.read_text(), mutant.kept()))
     return 0
 
 

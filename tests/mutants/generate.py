@@ -119,7 +119,11 @@ def shares(lines, size):
 
 def sample(found, size=SAMPLE, seed=SEED):
     """`size` of these mutants by folder. In a folder the kinds take turns; no line is changed twice. Which mutant comes
-    first is a hash of its name and the seed: a change of other lines does not change it."""
+    first is a hash of its name and the seed: a change of other lines does not change it. Raises ValueError if there are not so
+    many."""
+    count = sum(map(len, found.values()))
+    if not 1 <= size <= count:
+        raise ValueError(f"--sample {size}: there are {count} generated mutants")
     rank = functools.partial(_rank, seed)
     chosen = []
     lines_of = {folder: len({(c.path, c.line) for c in all_of_it}) for folder, all_of_it in found.items()}
@@ -141,12 +145,21 @@ def sample(found, size=SAMPLE, seed=SEED):
     return chosen
 
 
-def mutants(names=(), size=SAMPLE, seed=SEED):
-    """The mutants of these names, in this order, or those of a sample. Raises KeyError for an unknown name."""
-    if names:
-        known = {candidate.name: candidate for folder in candidates().values() for candidate in folder}
-        return [known[name].mutant() for name in names]
-    return [candidate.mutant() for candidate in sample(candidates(), size, seed)]
+def named(names):
+    """The candidates of these names, in this order. Raises KeyError for an unknown name."""
+    known = {candidate.name: candidate for candidate in every()}
+    return [known[name] for name in names]
+
+
+def every():
+    return [candidate for folder in candidates().values() for candidate in folder]
+
+
+def mutants(names=(), size=None, seed=None):
+    """The mutants of these names, in this order, or those of a sample. Raises KeyError for an unknown name, ValueError for a
+    sample that is larger than what there is."""
+    chosen = named(names) if names else sample(candidates(), SAMPLE if size is None else size, SEED if seed is None else seed)
+    return [candidate.mutant() for candidate in chosen]
 
 
 def _rank(seed, name):
@@ -163,16 +176,15 @@ def main():
     parser.add_argument("--list", action="store_true", help="all of them, not only a sample")
     parser.add_argument("--diff", metavar="NAME", help="print the change of this one, as git apply reads it")
     arguments = parser.parse_args()
-    every = [candidate for folder in candidates().values() for candidate in folder]
-    if arguments.diff:
-        known = {candidate.name: candidate for candidate in every}
-        if arguments.diff not in known:
-            parser.error(f"there is no mutant {arguments.diff}: its line may have changed")
-        print(known[arguments.diff].diff, end="")
-        return
-    if not 1 <= arguments.sample <= len(every):
-        parser.error(f"--sample {arguments.sample}: there are {len(every)} mutants")
-    chosen = every if arguments.list else sample(candidates(), arguments.sample, arguments.seed)
+    try:
+        if arguments.diff:
+            print(named([arguments.diff])[0].diff, end="")
+            return
+        chosen = every() if arguments.list else sample(candidates(), arguments.sample, arguments.seed)
+    except KeyError:
+        parser.error(f"there is no mutant {arguments.diff}: its line may have changed")
+    except ValueError as wrong:
+        parser.error(str(wrong))
     for c in chosen:
         if arguments.folder in (None, c.folder) and arguments.kind in (None, c.kind):
             print(f"{c.name}  {c.path}:{c.line}  {c.title.partition(': ')[2]}")

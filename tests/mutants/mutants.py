@@ -5,6 +5,7 @@ What a mutant is: mutant.py. How one is tried: trial.py.
 
 import argparse
 import datetime
+import functools
 import os
 import pathlib
 import platform
@@ -12,6 +13,7 @@ import signal
 import sys
 import time
 
+import generate
 import mutant as mutant_file
 import tables
 import workers
@@ -50,14 +52,18 @@ def chosen(arguments, error):
         error(f"-j {arguments.jobs}: at least one worker is needed")
     if not arguments.generated and (arguments.sample is not None or arguments.seed is not None):
         error("--sample and --seed are for --generated")
-    try:
-        if not arguments.generated:
-            return mutant_file.kept(arguments.name)
-        import generated  # it reads all sources, and needs Python 3.11
+    find = mutant_file.kept
+    if arguments.generated:
+        find = functools.partial(generate.mutants, size=arguments.sample, seed=arguments.seed)
+    return found("mutant", find, arguments.name, error)
 
-        return generated.mutants(arguments.name, arguments.sample, arguments.seed)
+
+def found(what, find, names, error):
+    """find(names). Names that are not there, and files that cannot be read, are usage errors."""
+    try:
+        return find(names)
     except KeyError as unknown:
-        error(f"there is no mutant {unknown.args[0]} (--list lists them)")
+        error(f"there is no {what} {unknown.args[0]} (./run mutants --list lists all mutants)")
     except ValueError as wrong:
         error(str(wrong))
 
