@@ -181,14 +181,19 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
         Candidate fresh(golden.functionals);
         render(stage, staged.stages[stage], fresh);
         double least = 1.0; // p
+        std::size_t strongest = suspected.front();
         std::erase_if(suspected, [&](std::size_t i) {
             const Finding& finding = comparison.findings[i];
             const Finding again = judge.judge(fresh, finding.functional, finding.channel);
             const double p = again.conclusive ? one_sided(again.test, finding.test.z) : 1.0;
-            least = std::min(least, p);
+            if (p < least) {
+                least = p;
+                strongest = i;
+            }
             return p >= staged.confirmation_level;
         });
         comparison.stages.push_back({fresh.batches(), least, staged.confirmation_level});
+        if (!suspected.empty()) comparison.suspicion = strongest; // the one whose p is stated
         if (suspected.empty()) {
             pass_or_inconclusive(comparison, staged,
                                  " (" + say_suspicion(comparison) +
@@ -197,7 +202,6 @@ Comparison compare(const Golden& golden, const RenderStage& render, Method metho
             return comparison;
         }
     }
-    comparison.suspicion = suspected.front();
     if (comparison.stages.size() == 1)
         give_reason(comparison,
                     "Suspicious: " + say_suspicion(comparison) + ", and no stage to confirm it.");

@@ -42,8 +42,8 @@ struct Comparison {
     double p = 1.0; // the smallest adjusted p of the first stage
     std::vector<Finding> findings;
     std::optional<std::size_t>
-        suspicion; // index into `findings`: the smallest adjusted p, significant or not; after further
-                   // stages the smallest of those that they all confirm, if there is one
+        suspicion; // index into `findings`: the smallest adjusted p, significant or not; if further
+                   // stages confirm some, the one with the smallest p in the last of these stages
     std::vector<Stage> stages;
     /// Smallest detectable relative error of the whole picture, per channel, at the first stage; NaN for
     /// a channel in which the golden is black.

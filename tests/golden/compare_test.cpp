@@ -155,6 +155,24 @@ TEST_F(Compare, EverySuspicionIsTestedOnTheFreshRenderNotTheStrongestAlone)
     EXPECT_NE(result.reason.find(describe_place(confirmed)), std::string::npos) << result.reason;
 }
 
+TEST_F(Compare, TheProbabilityAfterAFreshRenderIsThatOfTheFindingThatIsNamed)
+{
+    // Both renders are too dark everywhere, so more than one suspicion is confirmed. Which of them is
+    // the strongest differs, as the second render is darker still in the shadow.
+    const golden::RenderStage render =
+        stages({{.everywhere = 0.987}, {.everywhere = 0.99, .in_shadow = 0.94}});
+    const Comparison result = golden::compare(reference(), render, Method::ranks);
+    ASSERT_EQ(result.verdict, Verdict::fail) << result.reason;
+    ASSERT_EQ(result.stages.size(), 2u);
+    Candidate fresh(reference().functionals);
+    render(1, 256, fresh);
+    const Comparison second = golden::compare(reference(), fresh, Method::ranks);
+    const golden::Finding& named = result.findings[*result.suspicion];
+    EXPECT_EQ(result.stages[1].p,
+              golden::one_sided(second.findings[*result.suspicion].test, named.test.z));
+    EXPECT_NE(result.reason.find(describe_place(named)), std::string::npos) << result.reason;
+}
+
 TEST_F(Compare, ASuspicionThatAFreshRenderDoesNotConfirmIsDropped)
 {
     const Comparison cleared =
