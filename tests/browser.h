@@ -24,7 +24,8 @@ inline std::string title_in_browser(const std::string& browser, const std::files
                                     const std::filesystem::path& profile,
                                     const std::string& options = "")
 {
-    const std::string command = "timeout 120 " + browser +
+    // A browser reserves more addresses than a limit of memory allows, and uses few of them.
+    const std::string command = "ulimit -S -v unlimited 2>/dev/null; timeout 120 " + browser +
                                 " --headless --no-sandbox --disable-gpu --disable-dev-shm-usage"
                                 " --user-data-dir='" +
                                 profile.string() + "' --virtual-time-budget=10000 " + options +

@@ -30,8 +30,8 @@ _stopped = threading.Event()
 
 def run(command, folder, seconds, environment=None, megabytes=0):
     """Runs a command in `folder`. `environment` is added to that of the runner; `megabytes` limits its memory (0: no limit):
-    what a mutant does may have no end. Raises Stopped after stop_all."""
-    limits = "ulimit -c 0;" + (f" ulimit -v {megabytes * 1024};" if megabytes else "")
+    what a mutant does may have no end. A command may lift the limit for what it starts, as tests do for a browser. Raises Stopped after stop_all."""
+    limits = "ulimit -c 0;" + (f" ulimit -S -v {megabytes * 1024};" if megabytes else "")
     begin = time.monotonic()
     with tempfile.TemporaryFile() as output:  # not a pipe: one that a grandchild keeps open would have no end
         with _lock:
