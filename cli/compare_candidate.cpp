@@ -123,7 +123,7 @@ JudgedCandidate judge_batches(const golden::Golden& golden, const std::string& f
             ? golden::compare(golden, candidate, method)
             : golden::compare_pictures(golden, batches,
                                        {.picture_samples = samples_in(picture.metadata, "batch_size")});
-    return {std::move(comparison), candidate.film().mean(), std::move(picture.metadata),
+    return {std::move(comparison), candidate.mean(), std::move(picture.metadata),
             std::move(picture.layers)};
 }
 

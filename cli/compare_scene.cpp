@@ -51,7 +51,7 @@ JudgedCandidate judge_scene(const golden::Golden& golden, const std::string& fil
         if (!render_batches(*renderer, 0, batches, monitor,
                             [&](const images::Batch& batch) { candidate.add_batch(batch.mean); }))
             throw Interrupted();
-        mean = candidate.film().mean();
+        mean = candidate.mean();
         metadata["samples"] = std::to_string(command.samples);
     };
     golden::CompareOptions stages;

@@ -72,14 +72,16 @@ Outcome verify(const GoldenCommand& options, const std::string& file)
         }
         if (everything) film.add_batch(batch->mean);
     }
-    if (everything)
-        for (std::size_t i = 0; i < film.mean().pixels.size(); ++i)
+    if (everything) {
+        const images::Image mean = film.mean();
+        for (std::size_t i = 0; i < mean.pixels.size(); ++i)
             for (int c = 0; c < 3; ++c)
-                if (static_cast<float>(film.mean().pixels[i][c]) !=
+                if (static_cast<float>(mean.pixels[i][c]) !=
                     static_cast<float>(stored.mean.pixels[i][c])) {
                     std::printf("%s: the mean of pixel %zu is another one now\n", scene.name.c_str(), i);
                     return Outcome::different;
                 }
+    }
     std::printf("%s: %zu of %llu batches are the same, bit for bit%s\n", scene.name.c_str(),
                 chosen.size(), static_cast<unsigned long long>(total),
                 everything ? ", and so is the mean" : "");

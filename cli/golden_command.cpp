@@ -4,6 +4,7 @@
 
 #include "cli/golden_check.h"
 #include "cli/golden_mismatch.h"
+#include "cli/golden_part.h"
 #include "cli/golden_render.h"
 #include "cli/interrupt.h"
 #include "cli/output_files.h"
@@ -32,14 +33,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string command_of(const GoldenCommand& options, const std::string& scene)
-{
-    return "plumbline golden " + fs::path(scene).filename().string() + " --size " + options.size +
-           " -s " + std::to_string(options.samples) + " --batch " + std::to_string(options.batch_size) +
-           " --pilot " + std::to_string(options.pilot_batches) + " --max-edges " +
-           std::to_string(options.max_edges);
-}
-
 /// Makes or continues one golden. False if it was interrupted.
 bool make_golden(const GoldenCommand& options, const std::string& file)
 {
@@ -53,9 +46,11 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
     std::optional<golden::GoldenMaker> maker;
     if (fs::exists(path)) {
         const images::ExrPicture earlier = images::read_exr(path);
-        expect_made_so(options, Ask::all_options, {path, earlier.mean, earlier.metadata, !earlier.film},
+        images::expect_sound_state(path, earlier);
+        const bool finished = !earlier.has_state;
+        expect_made_so(options, Ask::all_options, {path, earlier.mean, earlier.metadata, finished},
                        metadata);
-        if (!earlier.film) { // finished
+        if (finished) {
             std::cout << scene.name << ": is there\n";
             return true;
         }
@@ -63,7 +58,7 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
     } else {
         maker.emplace(size.width, size.height, options.pilot_batches);
     }
-    metadata["command"] = command_of(options, file);
+    metadata["command"] = golden_command_of(options, file);
 
     const auto renderer = renderer_for(command, scene);
     const Clock::time_point start = Clock::now();
@@ -118,6 +113,7 @@ ExitStatus golden_command(GoldenCommand options)
     if (options.list) return list_goldens(options);
     if (options.verify > 0) return verify_goldens(options);
     check(options);
+    if (!options.batches.empty()) return make_golden_part(options);
     std::vector<NamedFile> goldens;
     for (const std::string& scene : options.scenes)
         goldens.push_back({"the golden of " + scene + ",", golden_file(options, scene)});

@@ -38,13 +38,22 @@ void add_golden_options(CLI::App& command, GoldenCommand& options)
         command.add_option("--watch", options.watch, "Seconds between writes of an unfinished golden")
             ->check(CLI::Range(0.0, 1e9))
             ->capture_default_str();
+    CLI::Option* batches = command.add_option(
+        "--batches", options.batches,
+        "Make a part: batches A to B - 1 of the golden of -s, as A..B; see plumbline merge");
+    CLI::Option* output = command.add_option("-o,--output", options.output, "The part, .exr")->needs(batches);
+    batches->needs(output)->excludes(all);
+    command
+        .add_option("--pilot-file", options.pilot_file,
+                    "For batches after the pilot: the merged parts of the pilot, .exr")
+        ->needs(batches);
     CLI::Option* list = command.add_flag("--list", options.list, "List the goldens, make none");
-    list->excludes(watch);
+    list->excludes(watch, batches);
     command
         .add_option("--verify", options.verify,
                     "Render this many batches of each golden again and compare the bits")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31))
-        ->excludes(list, watch);
+        ->excludes(list, watch, batches);
     command.add_flag("-q,--quiet", options.quiet, "No progress and no notices");
 }
 

@@ -62,6 +62,14 @@ RenderCommand render_of(const golden::Golden& golden, const std::string& scene)
     return command;
 }
 
+std::string golden_command_of(const GoldenCommand& options, const std::string& scene)
+{
+    return "plumbline golden " + fs::path(scene).filename().string() + " --size " + options.size +
+           " -s " + std::to_string(options.samples) + " --batch " + std::to_string(options.batch_size) +
+           " --pilot " + std::to_string(options.pilot_batches) + " --max-edges " +
+           std::to_string(options.max_edges);
+}
+
 fs::path golden_file(const GoldenCommand& options, const std::string& scene)
 {
     return fs::path(options.folder) / fs::path(scene).stem().concat(".exr");

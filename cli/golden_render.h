@@ -24,4 +24,7 @@ RenderCommand render_of(const golden::Golden& golden, const std::string& scene);
 /// The path of the golden of a scene file.
 std::filesystem::path golden_file(const GoldenCommand& options, const std::string& scene);
 
+/// The command that makes the golden, for its metadata.
+std::string golden_command_of(const GoldenCommand& options, const std::string& scene);
+
 } // namespace cli

@@ -13,6 +13,7 @@
 #include "cli/extremes_command.h"
 #include "cli/golden_command.h"
 #include "cli/interrupt.h"
+#include "cli/merge_command.h"
 #include "cli/render_command.h"
 #include "cli/standard_output.h"
 #include "cli/trade_command.h"
@@ -86,6 +87,7 @@ int main(int argc, char** argv)
         "Exit status: 0 success, 1 a check failed, 2 bad input, 3 inconclusive, 130 interrupted.");
     cli::Work work;
     cli::add_render_command(program, work);
+    cli::add_merge_command(program, work);
     cli::add_bvh_command(program, work);
     cli::add_golden_command(program, work);
     cli::add_compare_command(program, work);

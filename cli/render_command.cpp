@@ -43,10 +43,11 @@ images::Metadata describe_film(const RenderCommand& options, const images::Film&
                                const images::Dropped& dropped, images::Metadata metadata)
 {
     if (dropped.count > 0) metadata["dropped"] = std::to_string(dropped.count);
-    const std::uint64_t held = film.batches() * options.batch_size;
-    metadata["samples"] = std::to_string(held);
-    if (held < options.samples)
-        metadata["interrupted"] = "before " + std::to_string(options.samples) + " samples";
+    metadata["samples"] = std::to_string(film.batches() * options.batch_size);
+    if (film.range().end < range_of(options).end)
+        metadata["interrupted"] = options.batches.empty()
+                                      ? "before " + std::to_string(options.samples) + " samples"
+                                      : "before the end of batches " + options.batches;
     return metadata;
 }
 
@@ -60,15 +61,19 @@ void write_pictures(const RenderCommand& options, const images::Film& film,
             images::write_image(path, film, metadata, options.exposure);
 }
 
-void write_strategies(const RenderCommand& options, const images::Strategies& pictures,
+/// A part keeps its state, from which plumbline merge makes the pictures of the whole.
+void write_strategies(const RenderCommand& options, const images::StrategySums& sums,
                       const images::Film& film, images::Metadata metadata)
 {
+    const images::Strategies pictures = sums.means(options.batch_size);
     metadata["strategies"] = options.unweighted ? "unweighted" : "weighted";
     if (!options.strategies.empty()) {
-        images::Layers named;
-        for (const auto& [strategy, image] : pictures)
-            named.emplace(images::layer_name(strategy.first, strategy.second), image);
-        images::write_exr(options.strategies, film, metadata, named, images::FilmState::omit);
+        if (options.batches.empty())
+            images::write_exr(options.strategies, film, metadata, images::layers_of(pictures),
+                              images::FilmState::omit);
+        else
+            images::write_exr(options.strategies, film, metadata, images::layers_of(pictures),
+                              images::FilmState::keep, {}, sums);
     }
     if (!options.strategies_picture.empty())
         images::write_png(options.strategies_picture, images::strategy_sheet(pictures),
@@ -76,7 +81,7 @@ void write_strategies(const RenderCommand& options, const images::Strategies& pi
 }
 
 /// Names in ascending order are the batches in theirs.
-std::string batch_name(std::size_t number)
+std::string batch_name(std::uint64_t number)
 {
     const std::string digits = std::to_string(number);
     return "batch." + std::string(4 - std::min<std::size_t>(4, digits.size()), '0') + digits;
@@ -91,19 +96,19 @@ ExitStatus render(const RenderCommand& options)
     images::Dropped dropped;
     images::Film film = starting_film(options, metadata, dropped);
     const std::uint64_t batches_before = film.batches();
-    const std::uint64_t batches_in_all = options.samples / options.batch_size;
+    const images::BatchRange range = range_of(options);
     const Clock::time_point build_start = Clock::now();
     const double build_cpu_start = cpu_seconds();
     const auto renderer = renderer_for(options, scene);
     const double build_seconds = seconds_since(build_start);
     const double build_cpu = cpu_seconds() - build_cpu_start;
-    images::StrategySums strategies;
+    images::StrategySums strategies(range.first);
     images::Layers batches; // those that are to be kept
     PictureMean mean;
     const auto write_all = [&](const images::Film& so_far) {
         const images::Metadata described = describe_film(options, so_far, dropped, metadata);
         write_pictures(options, so_far, described, batches);
-        if (wants_layers(options)) write_strategies(options, strategies.means(), so_far, described);
+        if (wants_layers(options)) write_strategies(options, strategies, so_far, described);
     };
 
     catch_interrupts();
@@ -113,19 +118,20 @@ ExitStatus render(const RenderCommand& options)
     bool complete = false;
     {
         Progress progress(scene.name, static_cast<double>(batches_before),
-                          static_cast<double>(batches_in_all), options.quiet);
-        const images::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested,
+                          static_cast<double>(range.size()), options.quiet);
+        const auto show = [&](double done) { progress.update(done - static_cast<double>(range.first)); };
+        const images::Monitor monitor{show, interrupt_requested,
                                       [&](const images::Dropped& of_batch) { dropped += of_batch; }};
         const auto added = [&](const images::Batch& batch) {
             mean.add_batch(batch.mean);
-            strategies.add(batch.strategies, options.batch_size);
-            if (options.keep_batches) batches.emplace(batch_name(batches.size()), batch.mean);
+            strategies.add(batch.strategies);
+            if (options.keep_batches) batches.emplace(batch_name(film.range().end - 1), batch.mean);
             if (options.watch > 0.0 && seconds_since(written) >= options.watch) {
                 write_all(film);
                 written = Clock::now();
             }
         };
-        complete = images::fill(film, batches_in_all, *renderer, monitor, added);
+        complete = images::fill(film, range.end, *renderer, monitor, added);
     }
     const double seconds = seconds_since(start);
     const double cpu = cpu_seconds() - cpu_start;
@@ -151,7 +157,7 @@ ExitStatus render(const RenderCommand& options)
     if (complete) return fine;
     std::cerr << "plumbline: interrupted: "
               << (anything ? "kept " : "nothing written, no batch was finished: ")
-              << film.batches() * options.batch_size << " of " << options.samples
+              << film.batches() * options.batch_size << " of " << range.size() * options.batch_size
               << " samples per pixel\n";
     return interrupted;
 }

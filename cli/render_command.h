@@ -3,6 +3,7 @@
 // The subcommand `render`: its options, and the function that adds it (see command.h).
 
 #include "cli/command.h"
+#include "images/batch_range.h"
 #include "images/render_options.h"
 
 #include <algorithm>
@@ -20,6 +21,7 @@ struct RenderCommand {
     std::string size = "240x160";
     std::uint64_t samples = 64;
     std::uint32_t batch_size = 4;
+    std::string batches; // "4..8": a part of a render, these batches alone; empty: all of `samples`
     unsigned threads = std::max(1U, std::thread::hardware_concurrency());
     std::string device = "ref";
     std::string instructions = "best";
@@ -63,6 +65,13 @@ bool wants_layers(const RenderCommand& options);
 /// Throws std::invalid_argument or images::ImageError for options that exclude each other, and for files
 /// that cannot be written.
 void check(const RenderCommand& options);
+
+/// The batches to render. Throws std::invalid_argument for a text that is no range, or an empty one.
+images::BatchRange range_of(const RenderCommand& options);
+
+/// "4..8" as a range of batches that a part holds. Throws std::invalid_argument for another text, for a
+/// range without batches, and for one that lies beyond the largest number of samples.
+images::BatchRange parse_batches(const std::string& text, std::uint32_t batch_size);
 
 /// Throws std::invalid_argument unless `samples` per pixel are whole batches.
 void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size);

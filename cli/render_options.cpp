@@ -28,6 +28,8 @@ const std::map<std::string, images::Heuristic> heuristics = {{"balance", images:
                                                              {"power", images::Heuristic::power},
                                                              {"uniform", images::Heuristic::uniform}};
 
+constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
+
 /// Each is a picture in memory and in the file.
 constexpr std::uint64_t most_batches_kept = 1024;
 
@@ -56,12 +58,16 @@ void add_picture_options(CLI::App& command, RenderCommand& options)
     command
         .add_option("-s,--samples", options.samples,
                     "Samples per pixel, those of an earlier render included")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 31).description(""))
+        ->check(CLI::Range(std::uint64_t{1}, most_samples).description(""))
         ->capture_default_str();
     command
         .add_option("--batch", options.batch_size,
                     "Samples in a batch, unit of error and resuming [up to 4, dividing -s]")
         ->check(CLI::Range(1u, 1u << 20).description(""));
+    command
+        .add_option("--batches", options.batches,
+                    "In place of -s: batches A to B - 1 alone, as A..B; see plumbline merge")
+        ->excludes(command.get_option("--samples"));
 }
 
 /// The processor that renders.
@@ -179,15 +185,34 @@ void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size)
                                     std::to_string(batch_size) + " samples of a batch (--batch)");
 }
 
+images::BatchRange parse_batches(const std::string& text, std::uint32_t batch_size)
+{
+    const auto range = images::parse_range(text);
+    if (!range || range->size() == 0)
+        throw std::invalid_argument("--batches " + text +
+                                    ": expected A..B for batches A to B - 1, with A < B");
+    if (range->end > most_samples / batch_size)
+        throw std::invalid_argument("--batches " + text + ": beyond the last batch, " +
+                                    std::to_string(most_samples / batch_size - 1));
+    return *range;
+}
+
+images::BatchRange range_of(const RenderCommand& options)
+{
+    if (!options.batches.empty()) return parse_batches(options.batches, options.batch_size);
+    expect_whole_batches(options.samples, options.batch_size);
+    return {0, options.samples / options.batch_size};
+}
+
 void settle_batch_size(RenderCommand& options, bool given)
 {
-    if (given) return;
+    if (given || !options.batches.empty()) return;
     while (options.samples % options.batch_size != 0) --options.batch_size;
 }
 
 void check(const RenderCommand& options)
 {
-    expect_whole_batches(options.samples, options.batch_size);
+    const images::BatchRange range = range_of(options);
     if (options.no_roulette && options.max_edges == images::unlimited_edges)
         throw std::invalid_argument("--no-roulette needs --max-edges: paths would never end");
     if (std::isnan(options.exposure) || std::isnan(options.watch))
@@ -204,7 +229,7 @@ void check(const RenderCommand& options)
     if (options.keep_batches && options.resume)
         throw std::invalid_argument(
             "--keep-batches cannot be resumed: layers are kept without all their digits");
-    if (options.keep_batches && options.samples / options.batch_size > most_batches_kept)
+    if (options.keep_batches && range.size() > most_batches_kept)
         throw std::invalid_argument("--keep-batches keeps at most " + std::to_string(most_batches_kept) +
                                     " batches: choose a larger --batch");
     check_files(options);

@@ -70,7 +70,7 @@ void PictureMean::add_batch(const images::Image& batch)
 std::optional<images::Rgb> PictureMean::standard_error(std::uint64_t batches) const
 {
     if (film_.batches() < 2) return std::nullopt;
-    const images::Rgb variance = film_.squares().pixels[0] / static_cast<double>(film_.batches() - 1);
+    const images::Rgb variance = film_.moments().squares.pixels[0] / static_cast<double>(film_.batches() - 1);
     return glm::sqrt(variance / static_cast<double>(batches));
 }
 
@@ -85,7 +85,7 @@ bool is_unexpectedly_black(const scenes::Scene& scene, const images::Image& pict
 std::vector<std::string> warnings(const RenderRun& run)
 {
     std::vector<std::string> lines;
-    if (run.dropped.count > 0) lines.push_back(describe(run.dropped, run.film.mean().width));
+    if (run.dropped.count > 0) lines.push_back(describe(run.dropped, run.film.width()));
     if (run.film.batches() > 0 && is_unexpectedly_black(run.scene, run.film.mean()))
         lines.emplace_back(
             "the picture is exactly black although the scene has emitters: their light is "
@@ -103,11 +103,12 @@ std::string render_json(const RenderCommand& options, const RenderRun& run)
                        {"device", options.device},
                        {"builder", run.builder},
                        {"integrator", options.integrator},
-                       {"width", run.film.mean().width},
-                       {"height", run.film.mean().height},
+                       {"width", run.film.width()},
+                       {"height", run.film.height()},
                        {"samples_per_pixel", held},
                        {"batch_size", options.batch_size},
-                       {"complete", held == options.samples},
+                       {"batches", describe(run.film.range())},
+                       {"complete", run.film.range().end == range_of(options).end},
                        {"samples", run.samples},
                        {"seconds", run.seconds},
                        {"cpu_seconds", run.cpu_seconds},

@@ -16,17 +16,17 @@ images::Film starting_film(const RenderCommand& options, const images::Metadata&
                            images::Dropped& dropped)
 {
     const Size size = parse_size(options.size);
-    const std::uint64_t batches = options.samples / options.batch_size;
-    if (!options.resume) return {size.width, size.height};
+    const images::BatchRange range = range_of(options);
+    if (!options.resume) return {size.width, size.height, range.first};
     const auto exr = std::ranges::find_if(
         options.outputs, [](const std::string& path) { return images::has_ending(path, ".exr"); });
     if (exr == options.outputs.end())
         throw std::invalid_argument(
             "--resume needs an .exr among the outputs: only it holds all digits");
-    if (!std::filesystem::exists(*exr)) return {size.width, size.height};
+    if (!std::filesystem::exists(*exr)) return {size.width, size.height, range.first};
 
     images::ExrPicture picture = images::read_exr(*exr);
-    if (!picture.film) throw std::invalid_argument(*exr + ": holds no state to resume from");
+    if (!picture.film) throw std::invalid_argument(*exr + ": " + picture.no_state);
     const images::Metadata held = with_defaults(picture.metadata);
     for (const auto& [name, value] : with_defaults(description)) {
         const std::string found = value_of(held, name);
@@ -36,13 +36,20 @@ images::Film starting_film(const RenderCommand& options, const images::Metadata&
                                     "', not '" + value + "'" +
                                     (batch ? ": --batch " + found + " goes on with it" : ""));
     }
-    const images::Image& mean = picture.film->mean();
-    if (mean.width != size.width || mean.height != size.height)
-        throw std::invalid_argument(*exr + ": cannot resume: it has " + std::to_string(mean.width) +
-                                    "x" + std::to_string(mean.height) + " pixels, not " + options.size);
-    if (picture.film->batches() > batches)
+    const images::Film& film = *picture.film;
+    if (film.width() != size.width || film.height() != size.height)
+        throw std::invalid_argument(*exr + ": cannot resume: it has " + std::to_string(film.width()) +
+                                    "x" + std::to_string(film.height()) + " pixels, not " + options.size);
+    if (film.range().first != range.first)
+        throw std::invalid_argument(*exr + ": cannot resume: it begins with batch " +
+                                    std::to_string(film.range().first) + ", not " +
+                                    std::to_string(range.first));
+    if (film.range().end > range.end && !options.batches.empty())
+        throw std::invalid_argument(*exr + ": holds batches " + describe(film.range()) +
+                                    " already, more than --batches " + options.batches);
+    if (film.range().end > range.end)
         throw std::invalid_argument(
-            *exr + ": holds " + std::to_string(picture.film->batches() * options.batch_size) +
+            *exr + ": holds " + std::to_string(film.batches() * options.batch_size) +
             " samples per pixel already, more than -s " + std::to_string(options.samples));
     const std::string lacking = value_of(picture.metadata, "dropped");
     if (!lacking.empty()) {

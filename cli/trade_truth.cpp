@@ -132,6 +132,7 @@ NamedTruth cached_truth(const TradeCommand& options, const scenes::Scene& scene,
         const std::string version = value_of(earlier.metadata, "version");
         const auto batch_size = images::whole_number(value_of(earlier.metadata, "batch_size"));
         if (version == PLUMBLINE_VERSION && batch_size) {
+            images::expect_sound_state(path, earlier);
             if (!earlier.film) return in_words(golden::read_golden(path), path.string());
             maker = golden::GoldenMaker::resume(path);
             render.batch_size = static_cast<std::uint32_t>(*batch_size);

@@ -3,21 +3,23 @@
 namespace golden {
 
 Candidate::Candidate(const Functionals& functionals)
-    : functionals_(&functionals), film_(functionals.width(), functionals.height()),
+    : functionals_(&functionals), moments_{images::Image(functionals.width(), functionals.height()),
+                                           images::Image(functionals.width(), functionals.height())},
       cubes_(functionals.width(), functionals.height())
 {}
 
 void Candidate::add_batch(const images::Image& batch)
 {
     rows_.push_back(functionals_->evaluate(batch)); // checks the batch
-    // In one pass, from the mean and the squares of the batches before [Pebay 2008, eq. 1.2].
-    const auto n = static_cast<double>(film_.batches() + 1);
+    // In one pass, from the moments of the batches before [Pebay 2008, eq. 1.1 to 1.3].
+    const auto n = static_cast<double>(rows_.size());
     for (std::size_t i = 0; i < batch.pixels.size(); ++i) {
-        const images::Rgb from_mean = batch.pixels[i] - film_.mean().pixels[i];
+        const images::Rgb from_mean = batch.pixels[i] - moments_.mean.pixels[i];
         cubes_.pixels[i] += from_mean * (from_mean * from_mean * ((n - 1.0) * (n - 2.0) / (n * n)) -
-                                         3.0 / n * film_.squares().pixels[i]);
+                                         3.0 / n * moments_.squares.pixels[i]);
+        moments_.mean.pixels[i] += from_mean / n;
+        moments_.squares.pixels[i] += from_mean * (batch.pixels[i] - moments_.mean.pixels[i]);
     }
-    film_.add_batch(batch);
 }
 
 } // namespace golden

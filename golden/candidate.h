@@ -21,8 +21,10 @@ public:
     /// differs from the golden's or a pixel is NaN or infinite; the message names no file.
     void add_batch(const images::Image& batch);
 
-    [[nodiscard]] std::uint64_t batches() const { return film_.batches(); }
-    [[nodiscard]] const images::Film& film() const { return film_; }
+    [[nodiscard]] std::uint64_t batches() const { return rows_.size(); }
+    /// Of the batches, per pixel.
+    [[nodiscard]] const images::BatchMoments& moments() const { return moments_; }
+    [[nodiscard]] const images::Image& mean() const { return moments_.mean; }
     /// Sums over the batches of (batch - mean)^3, per pixel.
     [[nodiscard]] const images::Image& cubes() const { return cubes_; }
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
@@ -30,7 +32,7 @@ public:
 
 private:
     const Functionals* functionals_;
-    images::Film film_;
+    images::BatchMoments moments_;
     images::Image cubes_;
     std::vector<Row> rows_;
 };

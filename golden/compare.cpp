@@ -91,7 +91,7 @@ Comparison first_stage(const Golden& golden, const Candidate& candidate, Method 
                            : comparison.batch_size > 0.0
                                ? comparison.candidate_batches / comparison.batch_size
                                : 0.0;
-    comparison.odd = odd_pixels(golden, candidate.film().mean(), batches, options.dark_level);
+    comparison.odd = odd_pixels(golden, candidate.mean(), batches, options.dark_level);
     comparison.stages.push_back({candidate.batches(), comparison.p, options.suspicion_level});
     comparison.false_alarm =
         options.certainty_level + options.dark_level; // unless further stages are planned

@@ -46,8 +46,7 @@ Comparison look_at_picture(const Golden& golden, const images::Image& picture, d
 {
     const Functionals& functionals = golden.functionals;
     const std::vector<Row> row = {functionals.evaluate(picture)};
-    images::Film film(picture.width, picture.height);
-    film.add_batch(picture);
+    const images::BatchMoments alone{picture, images::Image(picture.width, picture.height)};
     Comparison comparison;
     comparison.method = Method::picture;
     comparison.golden_batches = golden.reference.size();
@@ -61,7 +60,7 @@ Comparison look_at_picture(const Golden& golden, const images::Image& picture, d
             const PictureEstimate estimate =
                 picture_estimate(scatter(golden, picture, f, c), values_of(row, functionals, f, c)[0],
                                  reference, batches);
-            comparison.findings.push_back(judge.judge(estimate.value, estimate.skewed, f, c, film));
+            comparison.findings.push_back(judge.judge(estimate.value, estimate.skewed, f, c, alone));
         }
     summarise(comparison);
     summarise_reach(comparison, golden, options);

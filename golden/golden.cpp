@@ -5,9 +5,11 @@
 #include "images/non_finite.h"
 #include "images/whole_number.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -53,19 +55,21 @@ void add_rows(images::Layers& layers, const std::vector<Row>& rows, const Functi
     }
 }
 
-/// `batches`: with the slopes, one more than those of the reference.
+/// `batches`: of the reference. `more`: rows behind theirs, one for the slopes.
 std::vector<Row> read_rows(const fs::path& path, const images::Layers& layers,
-                           const Functionals& functionals, std::uint64_t batches)
+                           const Functionals& functionals, std::uint64_t batches, std::uint64_t more)
 {
     const std::size_t count = functionals.size();
     const auto pixels = functionals.pilot().mean.pixels.size();
     // Checked before memory is allocated: the layers must hold that many.
-    const std::size_t layers_needed = (batches * count + pixels - 1) / pixels;
-    if (batches > layers.size() * pixels / count || !layers.contains(reference_layer(layers_needed - 1)))
-        throw images::ImageError(path, "damaged golden: says it holds " + std::to_string(batches - 1) +
+    const std::uint64_t most = layers.size() * pixels / count;
+    const std::size_t layers_needed = ((batches + more) * count + pixels - 1) / pixels;
+    if (batches > most || batches + more > most ||
+        !layers.contains(reference_layer(layers_needed - 1)))
+        throw images::ImageError(path, "damaged golden: says it holds " + std::to_string(batches) +
                                            " reference batches, and does not");
-    std::vector<Row> rows(batches, Row(channel_count * count));
-    for (std::size_t at = 0; at < batches * count; ++at) {
+    std::vector<Row> rows(batches + more, Row(channel_count * count));
+    for (std::size_t at = 0; at < rows.size() * count; ++at) {
         const auto layer = layers.find(reference_layer(at / pixels));
         if (layer == layers.end())
             throw images::ImageError(path,
@@ -137,10 +141,12 @@ Golden read_golden(const fs::path& path)
 {
     images::ExrPicture picture = images::read_exr(path);
     Functionals functionals = read_functionals(path, picture);
+    if (picture.film && picture.film->range().first > 0)
+        throw images::ImageError(path, "a part of a golden: plumbline merge joins parts");
     if (!picture.standard_error) throw images::ImageError(path, "not a golden: has no standard error");
     const std::uint64_t batches = find_number(path, picture.metadata, reference_batches_key);
     if (batches < 1) throw images::ImageError(path, "not a finished golden: no batch after its pilot");
-    std::vector<Row> rows = read_rows(path, picture.layers, functionals, batches + 1);
+    std::vector<Row> rows = read_rows(path, picture.layers, functionals, batches, 1);
     Row slopes = std::move(rows.back());
     rows.pop_back();
     return {std::move(picture.mean),
@@ -151,49 +157,98 @@ Golden read_golden(const fs::path& path)
             std::move(slopes)};
 }
 
-GoldenMaker::GoldenMaker(int width, int height, std::uint64_t pilot_batches)
-    : film_(width, height), pilot_batches_(pilot_batches)
+GoldenMaker::GoldenMaker(int width, int height, std::uint64_t pilot_batches, std::uint64_t first)
+    : film_(width, height, first), pilot_batches_(pilot_batches)
 {
     if (pilot_batches < 2) throw std::invalid_argument("a pilot needs two batches at least");
+    if (first >= pilot_batches)
+        throw std::invalid_argument("batches after the pilot need the complete pilot");
+}
+
+GoldenMaker::GoldenMaker(const Functionals& functionals, std::uint64_t first)
+    : film_(functionals.width(), functionals.height(), first),
+      pilot_batches_(functionals.pilot().batches), functionals_(functionals)
+{
+    if (first < pilot_batches_)
+        throw std::invalid_argument("batch " + std::to_string(first) + " belongs to the pilot");
 }
 
 GoldenMaker GoldenMaker::resume(const fs::path& path)
 {
     images::ExrPicture picture = images::read_exr(path);
-    if (!picture.film) throw images::ImageError(path, "holds no state to resume from");
+    if (!picture.film) throw images::ImageError(path, picture.no_state);
     const std::uint64_t pilot_batches = find_number(path, picture.metadata, pilot_batches_key);
     if (pilot_batches < 2)
         throw images::ImageError(path, "damaged golden: a pilot of fewer than two batches");
-    const images::Image& mean = picture.film->mean();
-    GoldenMaker maker(mean.width, mean.height, pilot_batches);
+    GoldenMaker maker(picture.film->width(), picture.film->height(), pilot_batches);
     maker.film_ = std::move(*picture.film);
-    if (maker.film_.batches() < pilot_batches) return maker;
+    const images::BatchRange& range = maker.film_.range();
+    if (range.end < pilot_batches || (range.first > 0 && range.first < pilot_batches)) return maker;
     maker.functionals_ = read_functionals(path, picture);
-    const std::uint64_t batches = maker.film_.batches() - pilot_batches;
+    const std::uint64_t first = std::max(range.first, pilot_batches);
+    const std::uint64_t batches = range.end - first;
     if (batches != find_number(path, picture.metadata, reference_batches_key))
         throw images::ImageError(path, "damaged golden: its film and its reference differ in length");
     if (batches == 0) return maker;
-    maker.reference_ = read_rows(path, picture.layers, *maker.functionals_, batches + 1);
+    const bool has_slopes = first == pilot_batches;
+    maker.reference_ =
+        read_rows(path, picture.layers, *maker.functionals_, batches, has_slopes ? 1 : 0);
+    if (!has_slopes) return maker;
     maker.slopes_ = std::move(maker.reference_.back());
     maker.reference_.pop_back();
     return maker;
 }
 
+/// The functionals need the pilot from its first batch on: a part that begins later ends with it.
+void GoldenMaker::expect_room(std::uint64_t end) const
+{
+    if (film_.range().first > 0 && !functionals_ && end > pilot_batches_)
+        throw std::invalid_argument("batches " +
+                                    images::describe({film_.range().first, end}) +
+                                    " cross the end of the pilot, batch " + std::to_string(pilot_batches_));
+}
+
+void GoldenMaker::complete_pilot()
+{
+    if (film_.range() == images::BatchRange{0, pilot_batches_}) functionals_.emplace(make_pilot(film_));
+}
+
 void GoldenMaker::add_batch(const images::Image& batch)
 {
+    const std::uint64_t number = film_.range().end;
     if (const auto fault = images::say_non_finite(batch))
-        throw std::invalid_argument("batch " + std::to_string(film_.batches()) + ": " + *fault);
+        throw std::invalid_argument("batch " + std::to_string(number) + ": " + *fault);
+    expect_room(number + 1);
     Row row;
     if (functionals_) row = functionals_->evaluate(batch);
-    if (functionals_ && reference_.empty()) slopes_ = functionals_->slopes(batch);
+    if (number == pilot_batches_) slopes_ = functionals_->slopes(batch);
     film_.add_batch(batch);
     if (functionals_) reference_.push_back(std::move(row));
-    if (film_.batches() == pilot_batches_) functionals_.emplace(make_pilot(film_));
+    complete_pilot();
+}
+
+void GoldenMaker::append(GoldenMaker next)
+{
+    if (next.pilot_batches_ != pilot_batches_)
+        throw std::invalid_argument("the pilots differ in length");
+    expect_room(next.film_.range().end);
+    if (functionals_ && next.functionals_ && !(functionals_->pilot() == next.functionals_->pilot()))
+        throw std::invalid_argument("the parts are made with different pilots");
+    film_.append(std::move(next.film_));
+    if (reference_.empty()) slopes_ = std::move(next.slopes_);
+    std::move(next.reference_.begin(), next.reference_.end(), std::back_inserter(reference_));
+    complete_pilot();
+}
+
+void GoldenMaker::expect_golden() const
+{
+    if (film_.range().first > 0) throw std::invalid_argument("a golden needs all batches from 0 on");
+    if (reference_.empty()) throw std::invalid_argument("a golden needs batches after its pilot");
 }
 
 Golden GoldenMaker::golden(const images::Metadata& metadata) const
 {
-    if (reference_.empty()) throw std::invalid_argument("a golden needs batches after its pilot");
+    expect_golden();
     images::Metadata all = metadata;
     describe(all);
     return {in_single_precision(film_.mean()),
@@ -214,8 +269,7 @@ void GoldenMaker::describe(images::Metadata& metadata) const
 void GoldenMaker::write(const fs::path& path, const images::Metadata& metadata,
                         images::FilmState state) const
 {
-    if (state == images::FilmState::omit && reference_.empty())
-        throw std::invalid_argument("a golden needs batches after its pilot");
+    if (state == images::FilmState::omit) expect_golden();
     images::Metadata all = metadata;
     describe(all);
     images::Layers layers;
@@ -224,7 +278,7 @@ void GoldenMaker::write(const fs::path& path, const images::Metadata& metadata,
         layers[pilot_mean_layer] = functionals_->pilot().mean;
         half_layers[pilot_noise_layer] = functionals_->pilot().noise;
         std::vector<Row> rows = reference_;
-        if (!rows.empty()) rows.push_back(slopes_);
+        if (!slopes_.empty()) rows.push_back(slopes_);
         add_rows(half_layers, rows, *functionals_);
     }
     images::write_exr(path, film_, all, layers, state, half_layers);

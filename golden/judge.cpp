@@ -69,7 +69,7 @@ void Judge::judge_by_means(Finding& finding, const Candidate& candidate, const M
     const MeanEstimate expected = mean_estimate(reference);
     const double tolerance = options_.rounding * size_of(finding, expected.mean);
     const double least =
-        std::max(least_p_of(finding, estimate, expected, candidate.film()),
+        std::max(least_p_of(finding, estimate, expected, candidate.moments(), pictures.count),
                  least_p_of_darkness(event, pictures.count, estimate, expected, tolerance));
     finding.test.p = std::max(finding.test.p, least);
     finding.darker_by_means = reference.variance > 0.0 && finding.test.z < 0.0;
@@ -86,13 +86,13 @@ void Judge::judge_by_means(Finding& finding, const Candidate& candidate, const M
 }
 
 Finding Judge::judge(const MeanEstimate& candidate, double skewed, std::size_t functional,
-                     std::size_t channel, const images::Film& picture) const
+                     std::size_t channel, const images::BatchMoments& picture) const
 {
     Finding finding = blank(functional, channel);
     const Moments reference = moments(values_of(golden_.reference, functionals_, functional, channel));
     compare_means(finding, candidate, reference, skewed, 1.0);
     const MeanEstimate expected = mean_estimate(reference);
-    finding.test.p = std::max(finding.test.p, least_p_of(finding, candidate, expected, picture));
+    finding.test.p = std::max(finding.test.p, least_p_of(finding, candidate, expected, picture, 1.0));
     finish(finding, candidate, expected);
     return finding;
 }
@@ -152,9 +152,10 @@ double Judge::level_of(const Finding& finding) const
 }
 
 double Judge::least_p_of(const Finding& finding, const MeanEstimate& estimate,
-                         const MeanEstimate& expected, const images::Film& film) const
+                         const MeanEstimate& expected, const images::BatchMoments& moments,
+                         double pictures) const
 {
-    const QuietPixels quiet = quiet_pixels(golden_, finding, film, options_.rounding, brightness_);
+    const QuietPixels quiet = quiet_pixels(golden_, finding, moments, pictures, options_.rounding, brightness_);
     return least_p(quiet, estimate, expected, options_.rounding * size_of(finding, expected.mean));
 }
 

@@ -37,7 +37,7 @@ public:
     /// Tests an estimate of the functional, of one picture, a film of one batch. `skewed`: |skewness| /
     /// sqrt(batches) of its noise.
     [[nodiscard]] Finding judge(const MeanEstimate& candidate, double skewed, std::size_t functional,
-                                std::size_t channel, const images::Film& picture) const;
+                                std::size_t channel, const images::BatchMoments& picture) const;
 
     /// The errors that an estimate of the functional finds: `detectable`, and `reach` of the whole
     /// picture. Nothing is tested.
@@ -62,7 +62,8 @@ private:
                        double skewed, double pictures, double largest_event = 0.0) const;
     /// As least_p of golden/rare_events.h.
     [[nodiscard]] double least_p_of(const Finding& finding, const MeanEstimate& estimate,
-                                    const MeanEstimate& expected, const images::Film& film) const;
+                                    const MeanEstimate& expected,
+                                    const images::BatchMoments& moments, double pictures) const;
     /// The size to which a relative tolerance refers, for a functional of this mean.
     [[nodiscard]] double size_of(const Finding& finding, double mean) const;
     [[nodiscard]] Reach reach_of(const Finding& finding, const MeanEstimate& candidate,

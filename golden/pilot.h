@@ -15,6 +15,7 @@ struct Pilot {
     images::Image mean;
     images::Image noise;
     std::uint64_t batches = 0;
+    friend bool operator==(const Pilot&, const Pilot&) = default;
 };
 
 /// The pilot that a film of at least two batches makes, noise rounded to half precision, mean to single:

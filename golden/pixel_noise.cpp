@@ -9,7 +9,7 @@ namespace golden {
 
 PixelNoise pixel_noise(const Candidate& candidate, std::size_t functional, std::size_t channel)
 {
-    const images::Image& squares = candidate.film().squares();
+    const images::Image& squares = candidate.moments().squares;
     const images::Image& cubes = candidate.cubes();
     const auto c = static_cast<int>(channel);
     const auto count = static_cast<double>(candidate.batches());

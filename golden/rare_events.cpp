@@ -86,18 +86,18 @@ double hidden_light(double largest_event, double pictures, double level)
     return -largest_event * std::log(level) / pictures;
 }
 
-QuietPixels quiet_pixels(const Golden& golden, const Finding& finding, const images::Film& film,
-                         double rounding, double brightness)
+QuietPixels quiet_pixels(const Golden& golden, const Finding& finding, const images::BatchMoments& moments,
+                         double pictures, double rounding, double brightness)
 {
     const auto c = static_cast<int>(finding.channel);
     QuietPixels quiet;
-    quiet.pictures = static_cast<double>(film.batches());
+    quiet.pictures = pictures;
     for_each_pixel(golden.functionals, finding.functional, finding.channel,
                    [&](std::size_t i, double weight) {
                        const double own = golden.mean.pixels[i][c];
                        const double by_rounding = rounding * (own > 0.0 ? own : brightness);
-                       const double further = film.mean().pixels[i][c] - own;
-                       const double scatter = std::sqrt(film.squares().pixels[i][c] / quiet.pictures);
+                       const double further = moments.mean.pixels[i][c] - own;
+                       const double scatter = std::sqrt(moments.squares.pixels[i][c] / quiet.pictures);
                        if (std::abs(further) <= by_rounding || scatter > by_rounding ||
                            golden.standard_error.pixels[i][c] > by_rounding)
                            return;

@@ -6,12 +6,17 @@
 //   R G B                            mean
 //   se.R se.G se.B                   standard error of the mean
 //   NAME.R NAME.G NAME.B             a further picture, "s2t3" for example; some in 16-bit halves
-//   state.mean.R.hi state.mean.R.lo  the film's mean and sum of squared deviations ("state.squares..."),
-//                                    each double as two 32-bit words: lossless, as no float is
+//   state.000.mean.R.hi (and .lo)    of each block of the film (film.h) the mean, the sum of squared
+//                                    deviations ("state.000.squares...") and the sums of strategies
+//                                    ("state.000.s2t3..."), each double as two 32-bit words: lossless,
+//                                    as no float is
 //   attribute plumbline.KEY          metadata, as a string
-//   attribute plumblineBatches       batches in the film, as a string
+//   attribute plumblineBatches       the number of batches in the film
+//   attribute plumblineBatchRange    beside a state: their numbers, "4..8" (8 is not among them)
+//   attribute plumblineChecksum      beside a state: a hash of the file's bytes, with zeros in its place
 
 #include "images/film.h"
+#include "images/strategies.h"
 
 #include <filesystem>
 #include <map>
@@ -28,11 +33,11 @@ using Layers = std::map<std::string, Image>;
 enum class FilmState { keep, omit };
 
 /// Writes the film as ZIP-compressed EXR (see the head of this file), values rounded to float but for
-/// the state, and to 16 bits in `half_layers`. Throws ImageError, and std::invalid_argument for layers
-/// that break the rules above.
+/// the state, and to 16 bits in `half_layers`. `strategies`, of the film's batches, becomes a part of the
+/// state. Throws ImageError, and std::invalid_argument for layers that break the rules above.
 void write_exr(const std::filesystem::path& path, const Film& film, const Metadata& metadata,
                const Layers& layers = {}, FilmState state = FilmState::keep,
-               const Layers& half_layers = {});
+               const Layers& half_layers = {}, const StrategySums& strategies = StrategySums());
 
 struct ExrPicture {
     Image mean;
@@ -40,8 +45,14 @@ struct ExrPicture {
     std::optional<Image> standard_error;
     Layers layers; // complete R, G, B triples; other channels (depth, alpha, ...) are ignored
     Metadata metadata;
-    std::optional<Film> film; // the exact state
+    std::optional<Film> film;              // the exact state
+    std::optional<StrategySums> strategies; // a part of the state, if there are any
+    bool has_state = false; // whether the file has one, be it of no use
+    std::string no_state;   // why there is no `film`: "holds no state to go on from", for example
 };
+
+/// Throws ImageError if the picture has a state that is of no use: damaged, or of an earlier version.
+void expect_sound_state(const std::filesystem::path& path, const ExrPicture& picture);
 
 /// Reads one of our files or another renderer's: channels of half, float or whole numbers in any order,
 /// any compression, scan lines or tiles (of several levels the finest), one part or several.
@@ -52,9 +63,20 @@ struct ExrPicture {
 /// Rec.709 are converted (exr_primaries.h). The picture has the size of the display window: black where
 /// the data window does not reach, without what lies outside. Values may be NaN (see first_non_finite).
 ///
-/// Throws ImageError for other files: no such picture, subsampled channels, deep data, an incomplete
-/// state, damage. No size that a file states makes it allocate more than its length can account for
+/// A state is left out if the checksum shows that the file was damaged or changed. Throws ImageError for
+/// other files: no such picture, subsampled channels, deep data, an incomplete state, damage. No size that a file states makes it allocate more than its length can account for
 /// (exr_header.h).
 ExrPicture read_exr(const std::filesystem::path& path, const std::string& layer = "");
+
+/// What a file of ours says of itself.
+struct ExrSummary {
+    int width = 0, height = 0;
+    Metadata metadata;
+    std::optional<BatchRange> range; // of the batches in its state
+    std::string no_state;            // why there is no `range`
+};
+
+/// The same as read_exr, without the pictures: the bytes are read, but not unpacked. Throws ImageError.
+ExrSummary read_exr_summary(const std::filesystem::path& path);
 
 } // namespace images

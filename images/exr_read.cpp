@@ -1,12 +1,12 @@
 #include "images/atomic_file.h"
 #include "images/exr.h"
+#include "images/exr_checksum.h"
 #include "images/exr_format.h"
 #include "images/exr_header.h"
 #include "images/exr_primaries.h"
 #include "images/exr_source.h"
 #include "images/exr_stream.h"
 #include "images/image_error.h"
-#include "images/whole_number.h"
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>
@@ -164,19 +164,71 @@ Metadata read_metadata(const Imf::Header& header)
     return metadata;
 }
 
-std::optional<Film> read_state(const fs::path& path, Reader& reader)
+/// The strategies of which block number `block` holds sums, in ascending order.
+std::vector<std::pair<int, int>> strategies_of(const Imf::ChannelList& channels, std::size_t block)
 {
-    if (reader.channels().findChannel(channel_name(mean_state, 0) + ".hi") == nullptr)
-        return std::nullopt;
-    const auto* const text = string_attribute(reader.header(), batches_attribute);
-    if (text == nullptr) throw ImageError(path, "has a film state but no number of batches");
-    const auto batches = whole_number(text->value());
-    if (!batches) throw ImageError(path, "'" + text->value() + "' is no number of batches");
-    Image mean = reader.exact(mean_state);
-    return Film(std::move(mean), reader.exact(squares_state), *batches);
+    const std::string begin = state_name(block, "");
+    const std::string_view end = ".R.hi";
+    std::vector<std::pair<int, int>> found;
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+        std::string_view name = channel.name();
+        if (!name.starts_with(begin) || !name.ends_with(end)) continue;
+        name.remove_prefix(begin.size());
+        name.remove_suffix(end.size());
+        if (const auto strategy = parse_layer_name(name)) found.push_back(*strategy);
+    }
+    return found;
+}
+
+/// The range of the batches in the state, or why there is none.
+struct StateRange {
+    std::optional<BatchRange> range;
+    bool has_state = false;
+    std::string no_state;
+};
+
+StateRange range_of_state(const fs::path& path, std::string_view bytes, const Imf::Header& header)
+{
+    const auto* const text = string_attribute(header, range_attribute);
+    if (text == nullptr && header.channels().findChannel("state.mean.R.hi") != nullptr)
+        return {{}, true, "holds the state of an earlier version of this program, which is of no use"};
+    if (text == nullptr) return {{}, false, "holds no state to go on from"};
+    if (!has_right_checksum(bytes))
+        return {{}, true, "is damaged, cut short or changed: its checksum is not that of its bytes"};
+    const auto range = parse_range(text->value());
+    if (!range) throw ImageError(path, "'" + text->value() + "' is no range of batches");
+    return {range, true, ""};
+}
+
+/// Sets film and strategies, or no_state.
+void read_state(const fs::path& path, std::string_view bytes, Reader& reader, ExrPicture& picture)
+{
+    const StateRange state = range_of_state(path, bytes, reader.header());
+    picture.has_state = state.has_state;
+    picture.no_state = state.no_state;
+    const std::optional<BatchRange>& range = state.range;
+    if (!range) return;
+    std::vector<BatchMoments> blocks;
+    std::vector<StrategyBlock> sums;
+    const std::size_t count = largest_blocks(*range).size();
+    for (std::size_t i = 0; i < count; ++i) {
+        blocks.push_back({reader.exact(state_name(i, "mean")), reader.exact(state_name(i, "squares"))});
+        StrategyBlock& block = sums.emplace_back();
+        for (const auto& strategy : strategies_of(reader.channels(), i))
+            block.sums.emplace(strategy, reader.exact(state_name(
+                                             i, layer_name(strategy.first, strategy.second))));
+    }
+    picture.film.emplace(picture.mean.width, picture.mean.height, *range, std::move(blocks));
+    if (std::ranges::any_of(sums, [](const StrategyBlock& block) { return !block.sums.empty(); }))
+        picture.strategies.emplace(*range, std::move(sums));
 }
 
 } // namespace
+
+void expect_sound_state(const fs::path& path, const ExrPicture& picture)
+{
+    if (picture.has_state && !picture.film) throw ImageError(path, picture.no_state);
+}
 
 ExrPicture read_exr(const fs::path& path, const std::string& layer)
 {
@@ -185,6 +237,7 @@ ExrPicture read_exr(const fs::path& path, const std::string& layer)
         const PictureSource source = find_picture(path, read_headers(path, bytes), layer);
         Reader reader(path, bytes, source.part);
         ExrPicture picture;
+        picture.no_state = "holds no state to go on from";
         picture.layer = source.layer;
         picture.mean = source.grey ? reader.grey(source.layer) : reader.colours(source.layer);
         picture.metadata = read_metadata(reader.header());
@@ -195,8 +248,26 @@ ExrPicture read_exr(const fs::path& path, const std::string& layer)
             return picture;
         if (has_colours(reader.channels(), standard_error_layer))
             picture.standard_error = reader.colours(standard_error_layer);
-        picture.film = read_state(path, reader);
+        read_state(path, bytes, reader, picture);
         return picture;
+    } catch (const std::bad_alloc&) {
+        throw ImageError(path, "asks for more memory than there is");
+    } catch (const ImageError&) {
+        throw;
+    } catch (const std::exception& error) { // Iex's, of many types
+        throw ImageError(path, error.what());
+    }
+}
+
+ExrSummary read_exr_summary(const fs::path& path)
+{
+    const std::string bytes = read_file(path);
+    try {
+        const Imf::Header header = read_headers(path, bytes).front();
+        const Imath::Box2i& window = header.displayWindow();
+        StateRange state = range_of_state(path, bytes, header);
+        return {window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, read_metadata(header),
+                state.range, std::move(state.no_state)};
     } catch (const std::bad_alloc&) {
         throw ImageError(path, "asks for more memory than there is");
     } catch (const ImageError&) {

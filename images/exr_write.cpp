@@ -1,5 +1,6 @@
 #include "images/atomic_file.h"
 #include "images/exr.h"
+#include "images/exr_checksum.h"
 #include "images/exr_format.h"
 #include "images/image_error.h"
 #include "images/picture_size.h"
@@ -128,6 +129,18 @@ void check_layer(const std::string& name, const Image& layer, const Image& mean)
         throw std::invalid_argument("layer " + name + " differs in size from the picture");
 }
 
+/// All that is needed to go on from the film.
+void add_state(Channels& channels, const Film& film, const StrategySums& strategies)
+{
+    for (std::size_t i = 0; i < film.blocks().size(); ++i) {
+        channels.add_exact(state_name(i, "mean"), film.blocks()[i].mean);
+        channels.add_exact(state_name(i, "squares"), film.blocks()[i].squares);
+    }
+    for (std::size_t i = 0; i < strategies.blocks().size(); ++i)
+        for (const auto& [strategy, sum] : strategies.blocks()[i].sums)
+            channels.add_exact(state_name(i, layer_name(strategy.first, strategy.second)), sum);
+}
+
 void add_metadata(const fs::path& path, Imf::Header& header, const Metadata& metadata)
 {
     constexpr std::size_t longest = 200;
@@ -141,30 +154,35 @@ void add_metadata(const fs::path& path, Imf::Header& header, const Metadata& met
 } // namespace
 
 void write_exr(const fs::path& path, const Film& film, const Metadata& metadata, const Layers& layers,
-               FilmState state, const Layers& half_layers)
+               FilmState state, const Layers& half_layers, const StrategySums& strategies)
 {
-    const Image& mean = film.mean();
+    const BatchMoments moments = film.moments();
+    const Image& mean = moments.mean;
     check_size(path, mean);
     for (const auto& [name, layer] : layers) check_layer(name, layer, mean);
     for (const auto& [name, layer] : half_layers) {
         check_layer(name, layer, mean);
         if (layers.contains(name)) throw std::invalid_argument("two layers are called '" + name + "'");
     }
+    if (strategies.range().size() > 0 && strategies.range() != film.range())
+        throw std::invalid_argument("the strategies are not of the film's batches");
     std::string bytes;
     try {
         Channels channels(mean.width, mean.height);
         channels.add_layer("", mean);
-        channels.add_layer(standard_error_layer, film.standard_error());
+        channels.add_layer(standard_error_layer, standard_error(moments, film.batches()));
         for (const auto& [name, layer] : layers) channels.add_layer(name, layer);
         for (const auto& [name, layer] : half_layers) channels.add_half_layer(name, layer);
         if (state == FilmState::keep) {
-            channels.add_exact(mean_state, mean);
-            channels.add_exact(squares_state, film.squares());
+            add_state(channels, film, strategies);
+            channels.header().insert(range_attribute, Imf::StringAttribute(describe(film.range())));
+            channels.header().insert(checksum_attribute, Imf::StringAttribute(blank_checksum()));
         }
         channels.header().insert(batches_attribute,
                                  Imf::StringAttribute(std::to_string(film.batches())));
         add_metadata(path, channels.header(), metadata);
         bytes = channels.encode();
+        if (state == FilmState::keep) add_checksum(bytes);
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const ImageError&) {

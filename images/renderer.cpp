@@ -38,10 +38,10 @@ bool render_batches(Renderer& renderer, std::uint64_t first, std::uint64_t end, 
     return true;
 }
 
-bool fill(Film& film, std::uint64_t batches, Renderer& renderer, const Monitor& monitor,
+bool fill(Film& film, std::uint64_t end, Renderer& renderer, const Monitor& monitor,
           const std::function<void(const Batch&)>& added)
 {
-    return render_batches(renderer, film.batches(), batches, monitor, [&](const Batch& batch) {
+    return render_batches(renderer, film.range().end, end, monitor, [&](const Batch& batch) {
         film.add_batch(batch.mean);
         if (added) added(batch);
     });

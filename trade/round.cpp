@@ -42,11 +42,11 @@ golden::Moments noise_of(const std::vector<images::Image>& batches, std::uint32_
 
 /// The mean over pixels and channels of w [(m - T)^2 - s^2 - s_T^2]: of the squared difference the
 /// variances of both means are taken away.
-double squared_bias(const images::Film& film, const Truth& truth)
+double squared_bias(const images::Image& mean, const images::Image& standard_error, const Truth& truth)
 {
-    const images::Image zero(film.mean().width, film.mean().height);
-    return weighted_square(truth.weights(), film.mean(), truth.mean()) -
-           weighted_square(truth.weights(), film.standard_error(), zero) - truth.own_error();
+    const images::Image zero(mean.width, mean.height);
+    return weighted_square(truth.weights(), mean, truth.mean()) -
+           weighted_square(truth.weights(), standard_error, zero) - truth.own_error();
 }
 
 } // namespace
@@ -113,9 +113,11 @@ std::optional<MeasuredRound> measure(const MakeRenderer& make, const Plan& plan,
     }
     for (const std::vector<double>& values : brightness)
         round.brightness.push_back(golden::moments(values));
-    round.noise = noise_of(batches, plan.batch_size, film.mean(), truth);
-    round.bias_squared = squared_bias(film, truth);
-    return MeasuredRound{std::move(round), film.mean()};
+    images::BatchMoments moments = film.moments();
+    round.noise = noise_of(batches, plan.batch_size, moments.mean, truth);
+    round.bias_squared =
+        squared_bias(moments.mean, images::standard_error(moments, film.batches()), truth);
+    return MeasuredRound{std::move(round), std::move(moments.mean)};
 }
 
 } // namespace trade

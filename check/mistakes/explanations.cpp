@@ -92,13 +92,14 @@ std::vector<golden::Explanation> SceneExplanations::explanations(const Image& me
 golden::Explanation SceneExplanations::explanation(const Mistake& mistake) const
 {
     const images::Film& first = pictures_.of(mistake.adds.front().part);
-    const Image none(first.mean().width, first.mean().height);
+    const Image none(first.width(), first.height());
     golden::Explanation result{mistake.is, none, none, static_cast<double>(first.batches())};
     for (const auto& [part, times] : mistake.adds) {
-        const Image& mean = pictures_.of(part).mean();
-        const Image error = pictures_.of(part).standard_error();
+        const images::Film& film = pictures_.of(part);
+        const images::BatchMoments moments = film.moments();
+        const Image error = images::standard_error(moments, film.batches());
         for (std::size_t i = 0; i < none.pixels.size(); ++i) {
-            result.adds.pixels[i] += times * mean.pixels[i];
+            result.adds.pixels[i] += times * moments.mean.pixels[i];
             // The parts are of the same paths: their errors may all have the same sign.
             result.error.pixels[i] += std::abs(times) * error.pixels[i];
         }

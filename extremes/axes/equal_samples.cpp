@@ -12,8 +12,8 @@ namespace extremes {
 
 namespace {
 
-/// The film after n equal samples. From the first batch on the mean is that batch, and the distances
-/// from it are 0: the state stays, and only the number of batches grows.
+/// The film after n equal samples. A block of two equal halves is that half: all distances are 0. So each
+/// block of the film is the batch, and the film need not be filled.
 template <class F, std::uint64_t batch_size>
 double film_of_equal(float x, std::uint64_t n)
 {
@@ -22,10 +22,13 @@ double film_of_equal(float x, std::uint64_t n)
     const images::Image batch = batch_of(static_cast<double>(sum / static_cast<F>(in_batch)));
     images::Film film{1, 1};
     film.add_batch(batch);
-    if (film.mean().pixels != batch.pixels || film.squares().pixels[0] != images::Rgb(0.0))
-        throw std::logic_error("the film does not keep its first batch");
+    film.add_batch(batch);
+    const images::BatchMoments one{batch, images::Image{1, 1}};
+    if (film.blocks() != std::vector{one})
+        throw std::logic_error("a film of two equal batches is not that batch");
     if (const std::uint64_t batches = n / in_batch; batches > 1) {
-        film = images::Film(film.mean(), film.squares(), batches - 1);
+        const images::BatchRange range{0, batches - 1};
+        film = images::Film(1, 1, range, std::vector(largest_blocks(range).size(), one));
         film.add_batch(batch);
     }
     return film.mean().pixels[0].r;

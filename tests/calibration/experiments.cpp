@@ -158,7 +158,7 @@ Verdicts measure_verdicts(Method method, Noise golden_noise, Noise candidate_noi
             Candidate candidate(golden.functionals);
             render(0, first_stage, candidate);
             return method == Method::welch ? compare(golden, candidate, method)
-                                           : compare_picture(golden, candidate.film().mean(),
+                                           : compare_picture(golden, candidate.mean(),
                                                              4.0 * static_cast<double>(first_stage));
         };
         const golden::Comparison comparison = judge();

@@ -25,7 +25,9 @@ F added_one_by_one(F x, std::uint64_t n)
 /// end.
 double mean_near_the_end(std::uint64_t n, double first, std::uint64_t m, double second)
 {
-    images::Film film(batch_of(first), batch_of(0.0), n);
+    const images::BatchRange range{0, n};
+    const images::BatchMoments equal{batch_of(first), batch_of(0.0)};
+    images::Film film(1, 1, range, std::vector(largest_blocks(range).size(), equal));
     for (std::uint64_t i = 0; i < m; ++i) film.add_batch(batch_of(second));
     return film.mean().pixels[0].r;
 }

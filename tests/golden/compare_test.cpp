@@ -325,7 +325,7 @@ TEST_F(Compare, WhatIsTooSkewedForATTestIsNeverPassed)
 TEST_F(Compare, ASinglePictureIsJudgedByAnAssumedNoiseAndSaysSo)
 {
     const auto picture = [&](double factor) {
-        return candidate({.everywhere = factor}, 256, 7).film().mean();
+        return candidate({.everywhere = factor}, 256, 7).mean();
     };
     const Comparison right =
         golden::compare_picture(reference(), picture(1.0), 1024.0, for_small_pictures());
@@ -340,7 +340,7 @@ TEST_F(Compare, ASinglePictureIsJudgedByAnAssumedNoiseAndSaysSo)
 TEST_F(Compare, ASinglePictureNoisierThanItClaimsDoesNotFailForIt)
 {
     // The picture has 16 samples, but 16384 are stated.
-    const Image noisy = candidate({}, 4, 8).film().mean();
+    const Image noisy = candidate({}, 4, 8).mean();
     const Comparison result = golden::compare_picture(reference(), noisy, 16384.0);
     EXPECT_NE(result.verdict, Verdict::fail) << result.reason;
     EXPECT_GT(*result.noise_ratio, 100.0);

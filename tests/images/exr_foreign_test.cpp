@@ -203,21 +203,21 @@ TEST(ForeignExr, AnIncompleteStateIsAnErrorAndNoStateIsAllowed)
 {
     const TemporaryFolder folder;
     Imf::Header partial = header(Imf::FLOAT);
-    partial.channels().insert("state.mean.R.hi", Imf::Channel(Imf::UINT));
+    partial.channels().insert("state.000.mean.R.hi", Imf::Channel(Imf::UINT));
     write_scan_lines<float>(folder / "a.exr", Imf::FLOAT, partial);
-    EXPECT_EQ(error_of_reading(folder / "a.exr"), "has a film state but no number of batches");
+    EXPECT_EQ(images::read_exr(folder / "a.exr").no_state, "holds no state to go on from");
 
-    partial.insert("plumblineBatches", Imf::StringAttribute("-3"));
+    partial.insert("plumblineBatchRange", Imf::StringAttribute("3..2"));
     write_scan_lines<float>(folder / "a.exr", Imf::FLOAT, partial);
-    EXPECT_EQ(error_of_reading(folder / "a.exr"), "'-3' is no number of batches");
+    EXPECT_EQ(error_of_reading(folder / "a.exr"), "'3..2' is no range of batches");
 
-    partial.insert("plumblineBatches", Imf::StringAttribute("3"));
+    partial.insert("plumblineBatchRange", Imf::StringAttribute("2..3"));
     write_scan_lines<float>(folder / "a.exr", Imf::FLOAT, partial);
-    EXPECT_EQ(error_of_reading(folder / "a.exr"), "has no channel state.mean.R.lo");
+    EXPECT_EQ(error_of_reading(folder / "a.exr"), "has no channel state.000.mean.R.lo");
 
-    partial.channels().insert("state.mean.R.lo", Imf::Channel(Imf::FLOAT));
+    partial.channels().insert("state.000.mean.R.lo", Imf::Channel(Imf::FLOAT));
     write_scan_lines<float>(folder / "a.exr", Imf::FLOAT, partial);
-    EXPECT_EQ(error_of_reading(folder / "a.exr"), "channel state.mean.R.lo is not of type UINT");
+    EXPECT_EQ(error_of_reading(folder / "a.exr"), "channel state.000.mean.R.lo is not of type UINT");
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "images/exr.h"
 #include "images/image_error.h"
+#include "tests/images/foreign_exr.h"
 #include "tests/images/picture_generators.h"
 #include "tests/images/temporary_folder.h"
 
@@ -7,7 +8,9 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 namespace {
 
@@ -30,19 +33,71 @@ Metadata any_metadata()
     return *rc::gen::container<Metadata>(key, value);
 }
 
-RC_GTEST_PROP(Exr, EveryDoubleOfTheFilmSurvivesARoundTrip, ())
+/// A film of arbitrary moments and numbers of batches, for files; no render makes it.
+Film any_film(const rc::Gen<double>& value, int columns, int rows)
+{
+    const auto number = rc::gen::resize(100, rc::gen::arbitrary<std::uint32_t>());
+    const std::uint64_t first = *number;
+    const images::BatchRange range{first, first + *number};
+    std::vector<images::BatchMoments> blocks;
+    for (std::size_t i = 0; i < largest_blocks(range).size(); ++i)
+        blocks.push_back({any_image(value, columns, rows), any_image(value, columns, rows)});
+    return {columns, rows, range, std::move(blocks)};
+}
+
+bool same_state(const std::vector<images::BatchMoments>& a, const std::vector<images::BatchMoments>& b)
+{
+    return std::ranges::equal(a, b, [](const auto& one, const auto& other) {
+        return same_bits(one.mean, other.mean) && same_bits(one.squares, other.squares);
+    });
+}
+
+RC_GTEST_PROP(Exr, EveryDoubleOfTheStateSurvivesARoundTrip, ())
 {
     const TemporaryFolder folder;
-    const Image mean = any_image(any_double());
-    const Image squares = any_image(any_double(), mean.width, mean.height);
-    const auto batches = *rc::gen::resize(100, rc::gen::arbitrary<std::uint64_t>());
-    images::write_exr(folder / "a.exr", Film(mean, squares, batches), {});
+    const Film film = any_film(any_double(), *rc::gen::inRange(1, 4), *rc::gen::inRange(1, 4));
+    images::StrategySums sums(film.range().first);
+    if (film.batches() > 0 && film.batches() < 3)
+        for (std::uint64_t i = 0; i < film.batches(); ++i)
+            sums.add({{{0, 2}, any_image(any_float(), film.width(), film.height())},
+                      {{12, 3}, any_image(any_float(), film.width(), film.height())}});
+    images::write_exr(folder / "a.exr", film, {}, {}, FilmState::keep, {}, sums);
     const ExrPicture read = images::read_exr(folder / "a.exr");
     RC_ASSERT(read.film.has_value());
-    RC_ASSERT(same_bits(read.film->mean(), mean));
-    RC_ASSERT(same_bits(read.film->squares(), squares));
-    RC_ASSERT(read.film->batches() == batches);
-    RC_ASSERT(same_values(read.mean, rounded_to_float(mean)));
+    RC_ASSERT(read.film->range() == film.range());
+    RC_ASSERT(same_state(read.film->blocks(), film.blocks()));
+    RC_ASSERT(same_values(read.mean, rounded_to_float(film.mean())));
+    RC_ASSERT(read.strategies.has_value() == (sums.range().size() > 0));
+    if (read.strategies) RC_ASSERT(*read.strategies == sums);
+}
+
+TEST(Exr, AStateThatWasDamagedOrIsOfAnEarlierVersionIsNotUsed)
+{
+    const TemporaryFolder folder;
+    images::write_exr(folder / "a.exr", film_of(Image(2, 2)), {{"scene", "cornell"}});
+    std::string bytes = read_bytes(folder / "a.exr");
+    EXPECT_TRUE(images::read_exr(folder / "a.exr").film);
+    bytes[bytes.find("cornell")] = 'k';
+    write_bytes(folder / "a.exr", bytes);
+    const ExrPicture damaged = images::read_exr(folder / "a.exr");
+    EXPECT_FALSE(damaged.film);
+    EXPECT_TRUE(damaged.has_state);
+    EXPECT_NE(damaged.no_state.find("checksum"), std::string::npos) << damaged.no_state;
+    EXPECT_EQ(damaged.metadata.at("scene"), "kornell"); // the picture is read all the same
+    EXPECT_THROW(images::expect_sound_state("a.exr", damaged), ImageError);
+}
+
+TEST(Exr, AStateOfAnEarlierVersionIsNamedAsSuch)
+{
+    // Before version 0.2 the state was one block, "state.mean" and "state.squares", without its range.
+    const TemporaryFolder folder;
+    images::write_exr(folder / "a.exr", film_of(Image(2, 2)), {}, {}, FilmState::omit);
+    EXPECT_EQ(images::read_exr(folder / "a.exr").no_state, "holds no state to go on from");
+    const ForeignChannels channels = {{"R", {1.0f}}, {"G", {1.0f}}, {"B", {1.0f}}, {"state.mean.R.hi", {0.0f}}};
+    write_foreign(folder / "old.exr", Imf::Header(1, 1), channels, Imf::FLOAT);
+    const ExrPicture old = images::read_exr(folder / "old.exr");
+    EXPECT_TRUE(old.has_state);
+    EXPECT_NE(old.no_state.find("earlier version"), std::string::npos) << old.no_state;
 }
 
 RC_GTEST_PROP(Exr, MeanErrorLayersAndMetadataSurviveARoundTrip, ())
@@ -51,7 +106,7 @@ RC_GTEST_PROP(Exr, MeanErrorLayersAndMetadataSurviveARoundTrip, ())
     const Image mean = any_image(any_float());
     const Image squares = any_image(rc::gen::map(any_float(), [](float f) { return std::abs(f); }),
                                     mean.width, mean.height);
-    const Film film(mean, squares, 5);
+    const Film film(mean.width, mean.height, {0, 4}, {{mean, squares}});
     const Layers layers = {{"s2t3", any_image(any_float(), mean.width, mean.height)},
                            {"a.b c\xc3\xa9", any_image(any_float(), mean.width, mean.height)},
                            {"R", any_image(any_float(), mean.width, mean.height)}};

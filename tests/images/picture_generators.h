@@ -81,7 +81,7 @@ inline images::Image rounded_to_float(images::Image image)
 /// A film that holds `image` as its mean, for pictures that were never rendered.
 inline images::Film film_of(const images::Image& image)
 {
-    return {image, images::Image(image.width, image.height), 1};
+    return {image.width, image.height, {0, 1}, {{image, images::Image(image.width, image.height)}}};
 }
 
 } // namespace images_test

@@ -98,9 +98,9 @@ TEST(StrategySums, AreDividedByAllSamplesAndLeaveOutWhatIsBlack)
     images::StrategySums sums;
     Image one(2, 1);
     one.pixels = {Rgb(1, 2, 3), Rgb(0)};
-    sums.add({{{0, 2}, one}, {{1, 1}, Image(2, 1)}}, 4);
-    sums.add({{{0, 2}, one}, {{2, 1}, one}}, 4);
-    const images::Strategies means = sums.means();
+    sums.add({{{0, 2}, one}, {{1, 1}, Image(2, 1)}});
+    sums.add({{{0, 2}, one}, {{2, 1}, one}});
+    const images::Strategies means = sums.means(4);
     ASSERT_EQ(means.size(), 2u);
     EXPECT_EQ(means.at({0, 2}).pixels[0], Rgb(0.25, 0.5, 0.75));
     EXPECT_EQ(means.at({2, 1}).pixels[0], Rgb(0.125, 0.25, 0.375)); // of all 8 samples

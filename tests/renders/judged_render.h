@@ -78,7 +78,7 @@ inline JudgedRender judge_render(const std::string& name,
     const RenderBatch render_batch = make_renderer(plan_of(result.golden, scene));
     const auto render = [&](std::size_t stage, std::uint64_t batches, golden::Candidate& candidate) {
         for (std::uint64_t i = 0; i < batches; ++i) candidate.add_batch(render_batch(seed + stage, i));
-        result.mean = candidate.film().mean();
+        result.mean = candidate.mean();
     };
     result.comparison = golden::compare(result.golden, render, method, options);
     return result;

@@ -99,7 +99,7 @@ TEST_P(WithoutAFamily, ThePictureLacksItsWeightedLayers)
         images::Film film(width, height);
         const auto renderer = ref::renderer(scene, width, height, options, 2);
         images::fill(film, 3, *renderer, {}, [&](const images::Batch& batch) {
-            layers.add(batch.strategies, options.batch_size);
+            layers.add(batch.strategies);
         });
         return film.mean();
     };
@@ -108,10 +108,10 @@ TEST_P(WithoutAFamily, ThePictureLacksItsWeightedLayers)
     const images::Image whole = rendered(layers);
     options.families.*named.family = false;
     images::Image sum = rendered(layers_left);
-    for (const auto& [strategy, layer] : layers.means()) {
+    for (const auto& [strategy, layer] : layers.means(options.batch_size)) {
         const auto [s, t] = strategy;
         if (!belongs_to(named.family, s, t)) continue;
-        EXPECT_FALSE(layers_left.means().contains(strategy));
+        EXPECT_FALSE(layers_left.means(options.batch_size).contains(strategy));
         for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += layer.pixels[i];
     }
     for (std::size_t i = 0; i < sum.pixels.size(); ++i)

@@ -137,7 +137,7 @@ TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel) // map: splat
         out.push_back({(id.pixel + 100) % (width * height), 2, 1, Rgb(1.0, 2.0, 4.0), 0.5});
     };
     const images::Film film = rendered(one_each, 2, 2);
-    for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(0.5, 1.0, 2.0));
+    for (const images::Image mean = film.mean(); const Rgb& pixel : mean.pixels) ASSERT_EQ(pixel, Rgb(0.5, 1.0, 2.0));
 }
 
 // Batch n draws the samples n B ... n B + B - 1 of every pixel: none twice, none left out. Batches that
@@ -151,7 +151,7 @@ TEST(Render, DrawsEverySampleOfAPixelOnce)
         out.push_back({id.pixel, 0, 2, Rgb(number, number * number, 1.0), 1.0});
     };
     const images::Film film = rendered(its_number, 2, 2);
-    for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(6.0 / 4.0, 14.0 / 4.0, 1.0));
+    for (const images::Image mean = film.mean(); const Rgb& pixel : mean.pixels) ASSERT_EQ(pixel, Rgb(6.0 / 4.0, 14.0 / 4.0, 1.0));
 }
 
 /// One finite contribution; and for every third pixel one that is not finite, to its own pixel or as a
@@ -189,10 +189,10 @@ TEST(Render, LeavesOutWhatIsNotFiniteAndSaysHowMuch)
                                              .strategies = images::StrategyPictures::unweighted},
                                             threads);
         ASSERT_TRUE(images::fill(film, 3, *renderer, monitor, [&](const images::Batch& batch) {
-            strategies.add(batch.strategies, 2);
+            strategies.add(batch.strategies);
         }));
-        for (const Rgb& pixel : film.mean().pixels) ASSERT_EQ(pixel, Rgb(1.0));
-        EXPECT_EQ(strategies.means().size(),
+        for (const images::Image mean = film.mean(); const Rgb& pixel : mean.pixels) ASSERT_EQ(pixel, Rgb(1.0));
+        EXPECT_EQ(strategies.means(2).size(),
                   1u); // only (0, 2): the others have no finite contribution
         EXPECT_EQ(reports, 3);
         EXPECT_EQ(dropped.count, 3u * 2u * (width * height / 3));

@@ -13,17 +13,18 @@ using ref::Rgb;
 constexpr int width = 20;
 constexpr int height = 18; // more than one tile
 constexpr int max_edges = 4;
+constexpr std::uint32_t batch_size = 4;
 
 images::StrategySums rendered(bool weighted, unsigned threads, images::Film& film)
 {
     const scenes::Scene scene = transport_test::our_scene("cornell_glass");
-    images::RenderOptions options{.seed = 4, .max_edges = max_edges};
+    images::RenderOptions options{.seed = 4, .max_edges = max_edges, .batch_size = batch_size};
     options.strategies =
         weighted ? images::StrategyPictures::weighted : images::StrategyPictures::unweighted;
     const auto renderer = ref::renderer(scene, width, height, options, threads);
     images::StrategySums sums;
     images::fill(film, 3, *renderer, {},
-                 [&](const images::Batch& batch) { sums.add(batch.strategies, options.batch_size); });
+                 [&](const images::Batch& batch) { sums.add(batch.strategies); });
     return sums;
 }
 
@@ -33,19 +34,20 @@ TEST(Strategies, WeightedPicturesAddUpToTheWhole)
 {
     images::Film film(width, height);
     images::Image sum(width, height);
-    for (const auto& [strategy, image] : rendered(true, 2, film).means())
+    for (const auto& [strategy, image] : rendered(true, 2, film).means(batch_size))
         for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += image.pixels[i];
+    const images::Image mean = film.mean();
     for (std::size_t i = 0; i < sum.pixels.size(); ++i)
         for (int channel = 0; channel < 3; ++channel)
-            ASSERT_NEAR(sum.pixels[i][channel], film.mean().pixels[i][channel],
-                        1e3 * 0x1p-53 * film.mean().pixels[i][channel]);
+            ASSERT_NEAR(sum.pixels[i][channel], mean.pixels[i][channel],
+                        1e3 * 0x1p-53 * mean.pixels[i][channel]);
 }
 
 TEST(Strategies, DoNotDependOnTheNumberOfThreads)
 {
     images::Film film(width, height);
     images::Film again(width, height);
-    EXPECT_EQ(rendered(false, 1, film).means(), rendered(false, 3, again).means());
+    EXPECT_EQ(rendered(false, 1, film).means(batch_size), rendered(false, 3, again).means(batch_size));
 }
 
 // Directly seen light: each of the two strategies finds all of it alone; together their weights must
@@ -54,8 +56,8 @@ TEST(Strategies, UnweightedPicturesShowTheirStrategyAlone)
 {
     images::Film film(width, height);
     images::Film again(width, height);
-    const auto alone = rendered(false, 2, film).means();
-    const auto shared = rendered(true, 2, again).means();
+    const auto alone = rendered(false, 2, film).means(batch_size);
+    const auto shared = rendered(true, 2, again).means(batch_size);
     const auto brightest = [](const images::Image& image) {
         double most = 0.0;
         for (const Rgb& pixel : image.pixels) most = std::max(most, pixel.x);
