@@ -23,10 +23,10 @@ struct GoldenCommand {
     std::uint64_t pilot_batches = 32;
     int max_edges = 6;
     unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-    double watch = 60.0; // seconds between writes of a golden in the making
-    std::string batches;     // "4..8": a part of a golden, these batches alone
-    std::string output;      // of the part
-    std::string pilot_file;  // the merged parts of the pilot, for batches after it
+    double watch = 60.0;    // seconds between writes of a golden in the making
+    std::string batches;    // "4..8": a part of a golden, these batches alone
+    std::string output;     // of the part
+    std::string pilot_file; // the merged parts of the pilot, for batches after it
     bool list = false;
     std::uint64_t verify = 0; // batches per golden; 0: make goldens instead
     bool quiet = false;

@@ -38,10 +38,13 @@ void add_golden_options(CLI::App& command, GoldenCommand& options)
         command.add_option("--watch", options.watch, "Seconds between writes of an unfinished golden")
             ->check(CLI::Range(0.0, 1e9))
             ->capture_default_str();
-    CLI::Option* batches = command.add_option(
-        "--batches", options.batches,
-        "Make a part: batches A to B - 1 of the golden of -s, as A..B; see plumbline merge");
-    CLI::Option* output = command.add_option("-o,--output", options.output, "The part, .exr")->needs(batches);
+    CLI::Option* batches =
+        command
+            .add_option("--batches", options.batches,
+                        "Make a part: batches A to B - 1, as A..B; see plumbline merge")
+            ->check(expect_batches);
+    CLI::Option* output =
+        command.add_option("-o,--output", options.output, "The part, .exr")->needs(batches);
     batches->needs(output)->excludes(all);
     command
         .add_option("--pilot-file", options.pilot_file,

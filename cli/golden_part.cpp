@@ -1,5 +1,5 @@
-// A part of a golden. The functionals of its reference batches need the complete pilot, which is a part, too,
-// or the merge of its parts.
+// A part of a golden. The functionals of its reference batches need the complete pilot, which is a part,
+// too, or the merge of its parts.
 
 #include "cli/golden_part.h"
 
@@ -36,10 +36,12 @@ images::BatchRange range_of_part(const GoldenCommand& options)
                                     " ends with batch " + std::to_string(all - 1));
     const std::uint64_t pilot = options.pilot_batches;
     if (range.first < pilot && range.end > pilot)
-        throw std::invalid_argument(text + "crosses the end of the pilot: a part ends at or begins with batch " +
-                                    std::to_string(pilot));
+        throw std::invalid_argument(
+            text + "crosses the end of the pilot: a part ends at or begins with batch " +
+            std::to_string(pilot));
     if (range.first >= pilot && options.pilot_file.empty())
-        throw std::invalid_argument(text + "after the pilot: --pilot-file names the merge of the parts of 0.." +
+        throw std::invalid_argument(text +
+                                    "after the pilot: --pilot-file names the merge of the parts of 0.." +
                                     std::to_string(pilot));
     if (range.first < pilot && !options.pilot_file.empty())
         throw std::invalid_argument(text + "part of the pilot, which needs no --pilot-file");
@@ -54,8 +56,8 @@ golden::GoldenMaker starting_maker(const GoldenCommand& options, const images::B
         const images::Part earlier = images::read_part(options.output);
         expect_same_render(wanted, earlier);
         if (earlier.range.first != range.first || earlier.range.end > range.end)
-            throw images::ImageError(options.output, "holds batches " + describe(earlier.range) + ", not " +
-                                                         options.batches);
+            throw images::ImageError(options.output, "holds batches " + describe(earlier.range) +
+                                                         ", not " + options.batches);
         return golden::GoldenMaker::resume(options.output);
     }
     const Size size = parse_size(options.size);

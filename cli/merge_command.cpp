@@ -22,8 +22,7 @@ namespace {
 ExitStatus check_parts(const MergeCommand& options)
 {
     bool sound = true;
-    for (const std::string& file : options.parts)
-        try {
+    for (const std::string& file : options.parts) try {
             std::cout << file << ": batches " << describe(images::read_part(file).range) << '\n';
         } catch (const images::ImageError& error) {
             std::cout << error.what() << '\n';
@@ -70,7 +69,8 @@ void add_merge_command(CLI::App& program, Work& work)
         ->excludes(command->get_option("--output"), command->get_option("--samples"),
                    command->get_option("--finish"));
     command
-        ->add_option("--exposure", options->exposure, "For .png: brighten the picture, in stops, -64 to 64")
+        ->add_option("--exposure", options->exposure,
+                     "For .png: brighten the picture, in stops, -64 to 64")
         ->check(CLI::Range(-64.0, 64.0).description(""))
         ->capture_default_str();
     command->add_flag("-q,--quiet", options->quiet, "No progress");

@@ -62,8 +62,8 @@ public:
         if (!picture.film) throw images::ImageError(part.path, picture.no_state);
         if (part.says.metadata.contains("dropped")) dropped_ += number_of(part, "dropped");
         if (metadata_.contains("strategies") && !picture.strategies) // no light in it
-            picture.strategies.emplace(part.range, std::vector<images::StrategyBlock>(
-                                                       largest_blocks(part.range).size()));
+            picture.strategies.emplace(
+                part.range, std::vector<images::StrategyBlock>(largest_blocks(part.range).size()));
         if (!film_) {
             film_ = std::move(picture.film);
             strategies_ = std::move(picture.strategies);

@@ -69,8 +69,11 @@ void check(const RenderCommand& options);
 /// The batches to render. Throws std::invalid_argument for a text that is no range, or an empty one.
 images::BatchRange range_of(const RenderCommand& options);
 
-/// "4..8" as a range of batches that a part holds. Throws std::invalid_argument for another text, for a
-/// range without batches, and for one that lies beyond the largest number of samples.
+/// For CLI11: what is wrong with the text of --batches, or nothing.
+std::string expect_batches(const std::string& text);
+
+/// "4..8" as the range of batches that a part holds. Throws std::invalid_argument for a range that ends
+/// beyond the largest number of samples.
 images::BatchRange parse_batches(const std::string& text, std::uint32_t batch_size);
 
 /// Throws std::invalid_argument unless `samples` per pixel are whole batches.

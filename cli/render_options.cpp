@@ -67,6 +67,7 @@ void add_picture_options(CLI::App& command, RenderCommand& options)
     command
         .add_option("--batches", options.batches,
                     "In place of -s: batches A to B - 1 alone, as A..B; see plumbline merge")
+        ->check(expect_batches)
         ->excludes(command.get_option("--samples"));
 }
 
@@ -185,13 +186,17 @@ void expect_whole_batches(std::uint64_t samples, std::uint32_t batch_size)
                                     std::to_string(batch_size) + " samples of a batch (--batch)");
 }
 
+std::string expect_batches(const std::string& text)
+{
+    const auto range = images::parse_range(text);
+    return range && range->size() > 0 ? ""
+                                      : "expected A..B for batches A to B - 1, with A < B, not " + text;
+}
+
 images::BatchRange parse_batches(const std::string& text, std::uint32_t batch_size)
 {
     const auto range = images::parse_range(text);
-    if (!range || range->size() == 0)
-        throw std::invalid_argument("--batches " + text +
-                                    ": expected A..B for batches A to B - 1, with A < B");
-    if (range->end > most_samples / batch_size)
+    if (!range || range->end > most_samples / batch_size)
         throw std::invalid_argument("--batches " + text + ": beyond the last batch, " +
                                     std::to_string(most_samples / batch_size - 1));
     return *range;

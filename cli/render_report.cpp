@@ -70,7 +70,8 @@ void PictureMean::add_batch(const images::Image& batch)
 std::optional<images::Rgb> PictureMean::standard_error(std::uint64_t batches) const
 {
     if (film_.batches() < 2) return std::nullopt;
-    const images::Rgb variance = film_.moments().squares.pixels[0] / static_cast<double>(film_.batches() - 1);
+    const images::Rgb variance =
+        film_.moments().squares.pixels[0] / static_cast<double>(film_.batches() - 1);
     return glm::sqrt(variance / static_cast<double>(batches));
 }
 

@@ -39,7 +39,8 @@ images::Film starting_film(const RenderCommand& options, const images::Metadata&
     const images::Film& film = *picture.film;
     if (film.width() != size.width || film.height() != size.height)
         throw std::invalid_argument(*exr + ": cannot resume: it has " + std::to_string(film.width()) +
-                                    "x" + std::to_string(film.height()) + " pixels, not " + options.size);
+                                    "x" + std::to_string(film.height()) + " pixels, not " +
+                                    options.size);
     if (film.range().first != range.first)
         throw std::invalid_argument(*exr + ": cannot resume: it begins with batch " +
                                     std::to_string(film.range().first) + ", not " +

@@ -64,8 +64,7 @@ std::vector<Row> read_rows(const fs::path& path, const images::Layers& layers,
     // Checked before memory is allocated: the layers must hold that many.
     const std::uint64_t most = layers.size() * pixels / count;
     const std::size_t layers_needed = ((batches + more) * count + pixels - 1) / pixels;
-    if (batches > most || batches + more > most ||
-        !layers.contains(reference_layer(layers_needed - 1)))
+    if (batches > most || batches + more > most || !layers.contains(reference_layer(layers_needed - 1)))
         throw images::ImageError(path, "damaged golden: says it holds " + std::to_string(batches) +
                                            " reference batches, and does not");
     std::vector<Row> rows(batches + more, Row(channel_count * count));
@@ -191,8 +190,7 @@ GoldenMaker GoldenMaker::resume(const fs::path& path)
         throw images::ImageError(path, "damaged golden: its film and its reference differ in length");
     if (batches == 0) return maker;
     const bool has_slopes = first == pilot_batches;
-    maker.reference_ =
-        read_rows(path, picture.layers, *maker.functionals_, batches, has_slopes ? 1 : 0);
+    maker.reference_ = read_rows(path, picture.layers, *maker.functionals_, batches, has_slopes ? 1 : 0);
     if (!has_slopes) return maker;
     maker.slopes_ = std::move(maker.reference_.back());
     maker.reference_.pop_back();
@@ -203,9 +201,9 @@ GoldenMaker GoldenMaker::resume(const fs::path& path)
 void GoldenMaker::expect_room(std::uint64_t end) const
 {
     if (film_.range().first > 0 && !functionals_ && end > pilot_batches_)
-        throw std::invalid_argument("batches " +
-                                    images::describe({film_.range().first, end}) +
-                                    " cross the end of the pilot, batch " + std::to_string(pilot_batches_));
+        throw std::invalid_argument("batches " + images::describe({film_.range().first, end}) +
+                                    " cross the end of the pilot, batch " +
+                                    std::to_string(pilot_batches_));
 }
 
 void GoldenMaker::complete_pilot()

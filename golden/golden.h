@@ -49,8 +49,8 @@ Golden read_golden(const std::filesystem::path& path);
 /// interruptions, nor on the parts.
 class GoldenMaker {
 public:
-    /// The first `pilot_batches` batches, at least 2, are the pilot. The batch that is added first has the
-    /// number `first`, which lies before the end of the pilot: throws std::invalid_argument.
+    /// The first `pilot_batches` batches, at least 2, are the pilot. The batch that is added first has
+    /// the number `first`, which lies before the end of the pilot: throws std::invalid_argument.
     GoldenMaker(int width, int height, std::uint64_t pilot_batches, std::uint64_t first = 0);
     /// A part after the pilot, whose functionals are those of the complete pilot. Throws
     /// std::invalid_argument if `first` lies before its end.
@@ -59,11 +59,11 @@ public:
     /// Goes on from a file written with FilmState::keep. Throws ImageError if it is no such file.
     static GoldenMaker resume(const std::filesystem::path& path);
 
-    /// Adds the batch that follows. Throws std::invalid_argument if the size differs or a pixel is NaN or
-    /// infinite, and for a part that lacks the pilot's beginning at the end of the pilot.
+    /// Adds the batch that follows. Throws std::invalid_argument if the size differs or a pixel is NaN
+    /// or infinite, and for a part that lacks the pilot's beginning at the end of the pilot.
     void add_batch(const images::Image& batch);
-    /// Adds the batches of another part, which follow. Throws std::invalid_argument if they do not, if the
-    /// parts are made with different pilots, or as add_batch.
+    /// Adds the batches of another part, which follow. Throws std::invalid_argument if they do not, if
+    /// the parts are made with different pilots, or as add_batch.
     void append(GoldenMaker next);
 
     [[nodiscard]] const images::Film& film() const { return film_; } // of all batches
@@ -78,7 +78,8 @@ public:
 
     /// Writes the golden so far, with the state to resume from or, when it is finished, without.
     /// `metadata` describes the picture, batch_size included. Throws ImageError, and
-    /// std::invalid_argument for a golden without state that has no batch after the pilot or lacks batch 0.
+    /// std::invalid_argument for a golden without state that has no batch after the pilot or lacks batch
+    /// 0.
     void write(const std::filesystem::path& path, const images::Metadata& metadata,
                images::FilmState state) const;
 

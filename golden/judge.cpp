@@ -155,7 +155,8 @@ double Judge::least_p_of(const Finding& finding, const MeanEstimate& estimate,
                          const MeanEstimate& expected, const images::BatchMoments& moments,
                          double pictures) const
 {
-    const QuietPixels quiet = quiet_pixels(golden_, finding, moments, pictures, options_.rounding, brightness_);
+    const QuietPixels quiet =
+        quiet_pixels(golden_, finding, moments, pictures, options_.rounding, brightness_);
     return least_p(quiet, estimate, expected, options_.rounding * size_of(finding, expected.mean));
 }
 

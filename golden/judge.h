@@ -62,8 +62,8 @@ private:
                        double skewed, double pictures, double largest_event = 0.0) const;
     /// As least_p of golden/rare_events.h.
     [[nodiscard]] double least_p_of(const Finding& finding, const MeanEstimate& estimate,
-                                    const MeanEstimate& expected,
-                                    const images::BatchMoments& moments, double pictures) const;
+                                    const MeanEstimate& expected, const images::BatchMoments& moments,
+                                    double pictures) const;
     /// The size to which a relative tolerance refers, for a functional of this mean.
     [[nodiscard]] double size_of(const Finding& finding, double mean) const;
     [[nodiscard]] Reach reach_of(const Finding& finding, const MeanEstimate& candidate,

@@ -86,8 +86,9 @@ double hidden_light(double largest_event, double pictures, double level)
     return -largest_event * std::log(level) / pictures;
 }
 
-QuietPixels quiet_pixels(const Golden& golden, const Finding& finding, const images::BatchMoments& moments,
-                         double pictures, double rounding, double brightness)
+QuietPixels quiet_pixels(const Golden& golden, const Finding& finding,
+                         const images::BatchMoments& moments, double pictures, double rounding,
+                         double brightness)
 {
     const auto c = static_cast<int>(finding.channel);
     QuietPixels quiet;

@@ -71,8 +71,9 @@ struct QuietPixels {
 
 /// `moments`: of that many pictures. `rounding`: relative difference or noise that counts as none; of
 /// `brightness`, the mean of the picture, where the golden is black.
-QuietPixels quiet_pixels(const Golden& golden, const Finding& finding, const images::BatchMoments& moments,
-                         double pictures, double rounding, double brightness);
+QuietPixels quiet_pixels(const Golden& golden, const Finding& finding,
+                         const images::BatchMoments& moments, double pictures, double rounding,
+                         double brightness);
 
 /// The smallest p-value that quiet pixels allow for the test of two means: theirs, if their difference
 /// is due to rare events that all pictures have equally often and the golden has not; or that of the

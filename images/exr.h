@@ -33,8 +33,8 @@ using Layers = std::map<std::string, Image>;
 enum class FilmState { keep, omit };
 
 /// Writes the film as ZIP-compressed EXR (see the head of this file), values rounded to float but for
-/// the state, and to 16 bits in `half_layers`. `strategies`, of the film's batches, becomes a part of the
-/// state. Throws ImageError, and std::invalid_argument for layers that break the rules above.
+/// the state, and to 16 bits in `half_layers`. `strategies`, of the film's batches, becomes a part of
+/// the state. Throws ImageError, and std::invalid_argument for layers that break the rules above.
 void write_exr(const std::filesystem::path& path, const Film& film, const Metadata& metadata,
                const Layers& layers = {}, FilmState state = FilmState::keep,
                const Layers& half_layers = {}, const StrategySums& strategies = StrategySums());
@@ -45,10 +45,10 @@ struct ExrPicture {
     std::optional<Image> standard_error;
     Layers layers; // complete R, G, B triples; other channels (depth, alpha, ...) are ignored
     Metadata metadata;
-    std::optional<Film> film;              // the exact state
+    std::optional<Film> film;               // the exact state
     std::optional<StrategySums> strategies; // a part of the state, if there are any
-    bool has_state = false; // whether the file has one, be it of no use
-    std::string no_state;   // why there is no `film`: "holds no state to go on from", for example
+    bool has_state = false;                 // whether the file has one, be it of no use
+    std::string no_state; // why there is no `film`: "holds no state to go on from", for example
 };
 
 /// Throws ImageError if the picture has a state that is of no use: damaged, or of an earlier version.
@@ -64,8 +64,8 @@ void expect_sound_state(const std::filesystem::path& path, const ExrPicture& pic
 /// the data window does not reach, without what lies outside. Values may be NaN (see first_non_finite).
 ///
 /// A state is left out if the checksum shows that the file was damaged or changed. Throws ImageError for
-/// other files: no such picture, subsampled channels, deep data, an incomplete state, damage. No size that a file states makes it allocate more than its length can account for
-/// (exr_header.h).
+/// other files: no such picture, subsampled channels, deep data, an incomplete state, damage. No size
+/// that a file states makes it allocate more than its length can account for (exr_header.h).
 ExrPicture read_exr(const std::filesystem::path& path, const std::string& layer = "");
 
 /// What a file of ours says of itself.

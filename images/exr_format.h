@@ -28,7 +28,8 @@ inline std::string channel_name(const std::string& layer, std::size_t channel)
 inline std::string state_name(std::size_t block, const std::string& what)
 {
     const std::string digits = std::to_string(block);
-    return "state." + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits + "." + what;
+    return "state." + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits + "." +
+           what;
 }
 
 /// A double as two words, high and low.

@@ -215,8 +215,8 @@ void read_state(const fs::path& path, std::string_view bytes, Reader& reader, Ex
         blocks.push_back({reader.exact(state_name(i, "mean")), reader.exact(state_name(i, "squares"))});
         StrategyBlock& block = sums.emplace_back();
         for (const auto& strategy : strategies_of(reader.channels(), i))
-            block.sums.emplace(strategy, reader.exact(state_name(
-                                             i, layer_name(strategy.first, strategy.second))));
+            block.sums.emplace(strategy,
+                               reader.exact(state_name(i, layer_name(strategy.first, strategy.second))));
     }
     picture.film.emplace(picture.mean.width, picture.mean.height, *range, std::move(blocks));
     if (std::ranges::any_of(sums, [](const StrategyBlock& block) { return !block.sums.empty(); }))

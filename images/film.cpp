@@ -1,5 +1,5 @@
-// Mean and variance of two sets of batches together, from those of each [Chan, Golub, LeVeque 1979, eq. 2.1].
-// Only + - * / and sqrt are used, which IEEE 754 rounds alike on every machine.
+// Mean and variance of two sets of batches together, from those of each [Chan, Golub, LeVeque 1979,
+// eq. 2.1]. Only + - * / and sqrt are used, which IEEE 754 rounds alike on every machine.
 
 #include "images/film.h"
 

@@ -20,26 +20,25 @@ struct BatchMoments {
     friend bool operator==(const BatchMoments&, const BatchMoments&) = default;
 };
 
-/// The moments of a range of batches, folded in blocks (batch_fold.h), so that the bits depend only on the
-/// batches and their numbers, and not on where a render was interrupted or on which machines its parts were
-/// made. A batch is the mean of a fixed number of samples per pixel: the unit of work, of variance, of
-/// resuming and of parts.
+/// The moments of a range of batches, folded in blocks (batch_fold.h), so that the bits depend only on
+/// the batches and their numbers, and not on where a render was interrupted or on which machines its
+/// parts were made. A batch is the mean of a fixed number of samples per pixel: the unit of work, of
+/// variance, of resuming and of parts.
 class Film {
 public:
     Film() = default;
     /// No batch yet; the first has the number `first`.
-    Film(int width, int height, std::uint64_t first = 0)
-        : width_(width), height_(height), fold_(first)
+    Film(int width, int height, std::uint64_t first = 0) : width_(width), height_(height), fold_(first)
     {}
     /// A film in the state of an earlier one: the moments of its largest blocks. Throws
     /// std::invalid_argument if their number or a size disagrees.
     Film(int width, int height, const BatchRange& range, std::vector<BatchMoments> blocks);
 
-    /// Adds the batch that follows, given as its mean per pixel. Throws std::invalid_argument if its size
-    /// differs.
+    /// Adds the batch that follows, given as its mean per pixel. Throws std::invalid_argument if its
+    /// size differs.
     void add_batch(const Image& batch);
-    /// Adds the batches of another film, which follow. Throws std::invalid_argument if they do not, or if
-    /// the size differs.
+    /// Adds the batches of another film, which follow. Throws std::invalid_argument if they do not, or
+    /// if the size differs.
     void append(Film next);
 
     [[nodiscard]] int width() const { return width_; }

@@ -12,9 +12,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string batches_text(const BatchRange& range)
+/// "batch 3 is", "batches 4..8 are"
+std::string batches_are(const BatchRange& range)
 {
-    return range.size() == 1 ? "batch " + std::to_string(range.first) : "batches " + describe(range);
+    return range.size() == 1 ? "batch " + std::to_string(range.first) + " is"
+                             : "batches " + describe(range) + " are";
 }
 
 } // namespace
@@ -39,9 +41,12 @@ Metadata without_counts(Metadata metadata)
 void expect_same_render(const Part& first, const Part& other)
 {
     const auto differ = [&](const std::string& name, const std::string& here, const std::string& there) {
-        const auto said = [](const std::string& text) { return text.empty() ? "not said" : "'" + text + "'"; };
-        throw ImageError(other.path, "is no part of the same render as " + first.path.filename().string() +
-                                         ": its " + name + " is " + said(here) + ", not " + said(there));
+        const std::string difference =
+            here.empty() ? "it does not say its " + name + ", '" + there + "' in the other"
+                         : "its " + name + " is '" + here + "', not " +
+                               (there.empty() ? "said in the other" : "'" + there + "'");
+        throw ImageError(other.path, "is no part of the same render as " +
+                                         first.path.filename().string() + ": " + difference);
     };
     const auto size = [](const Part& part) {
         return std::to_string(part.says.width) + "x" + std::to_string(part.says.height);
@@ -69,22 +74,18 @@ std::vector<Part> in_order(std::vector<Part> parts, std::optional<std::uint64_t>
     std::uint64_t end = batches ? 0 : parts.front().range.first;
     for (const Part& part : parts) {
         if (part.range.first < end)
-            throw ImageError(part.path,
-                             batches_text({part.range.first, std::min(end, part.range.end)}) +
-                                 (part.range.size() == 1 ? " is" : " are") + " also in " +
-                                 before->path.filename().string());
+            throw ImageError(part.path, batches_are({part.range.first, std::min(end, part.range.end)}) +
+                                            " also in " + before->path.filename().string());
         if (part.range.first > end)
-            throw ImageError(part.path, batches_text({end, part.range.first}) + " before it " +
-                                            (part.range.first - end == 1 ? "is" : "are") + " missing");
+            throw ImageError(part.path, batches_are({end, part.range.first}) + " missing before it");
         before = &part;
         end = part.range.end;
     }
     if (batches && end < *batches)
-        throw ImageError(before->path, batches_text({end, *batches}) + " after it " +
-                                           (*batches - end == 1 ? "is" : "are") + " missing");
+        throw ImageError(before->path, batches_are({end, *batches}) + " missing after it");
     if (batches && end > *batches)
-        throw ImageError(before->path, "holds " + batches_text({*batches, end}) +
-                                           ", which the whole has not: it ends with batch " +
+        throw ImageError(before->path, batches_are({*batches, end}) +
+                                           " beyond the end of the whole, batch " +
                                            std::to_string(*batches - 1));
     return parts;
 }

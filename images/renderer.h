@@ -62,9 +62,9 @@ private:
 bool render_batches(Renderer& renderer, std::uint64_t first, std::uint64_t end, const Monitor& monitor,
                     const std::function<void(const Batch&)>& done);
 
-/// Adds batches to `film`, which may come from an earlier, shorter render, until its range ends at `end` or
-/// monitor.stop returns true. Returns whether it is complete. The film does not depend on where it was
-/// interrupted. Calls added(batch), if it is not empty, after the film has the batch. Throws
+/// Adds batches to `film`, which may come from an earlier, shorter render, until its range ends at `end`
+/// or monitor.stop returns true. Returns whether it is complete. The film does not depend on where it
+/// was interrupted. Calls added(batch), if it is not empty, after the film has the batch. Throws
 /// std::invalid_argument if film and renderer differ in size; see Renderer::render_batch.
 bool fill(Film& film, std::uint64_t end, Renderer& renderer, const Monitor& monitor = {},
           const std::function<void(const Batch&)>& added = {});

@@ -42,8 +42,8 @@ struct StrategyBlock {
 class StrategySums {
 public:
     explicit StrategySums(std::uint64_t first = 0) : fold_(first) {}
-    /// The state of earlier sums: of the largest blocks of the range. Throws std::invalid_argument if their
-    /// number disagrees.
+    /// The state of earlier sums: of the largest blocks of the range. Throws std::invalid_argument if
+    /// their number disagrees.
     StrategySums(const BatchRange& range, std::vector<StrategyBlock> blocks)
         : fold_(range, std::move(blocks))
     {}

@@ -12,8 +12,8 @@ namespace extremes {
 
 namespace {
 
-/// The film after n equal samples. A block of two equal halves is that half: all distances are 0. So each
-/// block of the film is the batch, and the film need not be filled.
+/// The film after n equal samples. A block of two equal halves is that half: all distances are 0. So
+/// each block of the film is the batch, and the film need not be filled.
 template <class F, std::uint64_t batch_size>
 double film_of_equal(float x, std::uint64_t n)
 {

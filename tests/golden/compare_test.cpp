@@ -324,9 +324,7 @@ TEST_F(Compare, WhatIsTooSkewedForATTestIsNeverPassed)
 
 TEST_F(Compare, ASinglePictureIsJudgedByAnAssumedNoiseAndSaysSo)
 {
-    const auto picture = [&](double factor) {
-        return candidate({.everywhere = factor}, 256, 7).mean();
-    };
+    const auto picture = [&](double factor) { return candidate({.everywhere = factor}, 256, 7).mean(); };
     const Comparison right =
         golden::compare_picture(reference(), picture(1.0), 1024.0, for_small_pictures());
     EXPECT_EQ(right.verdict, Verdict::pass) << right.reason;

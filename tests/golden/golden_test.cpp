@@ -77,6 +77,76 @@ RC_GTEST_PROP(Golden, GoingOnFromAFileGivesTheBytesOfAnUninterruptedMaking, ())
     RC_ASSERT(read_bytes(folder / "resumed.exr") == read_bytes(folder / "whole.exr"));
 }
 
+RC_GTEST_PROP(Golden, HasTheSameBytesFromPartsOfAnyRanges, ())
+{
+    constexpr std::size_t pilot = 5;
+    constexpr std::size_t all = 14;
+    const TemporaryFolder folder;
+    std::vector<Image> batches;
+    for (std::size_t i = 0; i < all; ++i) batches.push_back(any_batch(5, 4));
+    GoldenMaker whole(5, 4, pilot);
+    for (const Image& batch : batches) whole.add_batch(batch);
+    whole.write(folder / "whole.exr", metadata, FilmState::omit);
+
+    const auto fill = [&](GoldenMaker maker, std::size_t end) {
+        for (std::size_t i = maker.film().range().end; i < end; ++i) maker.add_batch(batches[i]);
+        maker.write(folder / "part.exr", metadata, FilmState::keep);
+        return GoldenMaker::resume(folder / "part.exr");
+    };
+    const std::size_t cut = *rc::gen::inRange<std::size_t>(1, pilot);
+    GoldenMaker made = fill({5, 4, pilot}, cut);
+    made.append(fill({5, 4, pilot, cut}, pilot));
+    RC_ASSERT(made.functionals().has_value());
+    const golden::Functionals functionals = *made.functionals();
+    const std::size_t second = *rc::gen::inRange(pilot + 1, all - 1);
+    const std::size_t third = *rc::gen::inRange(second + 1, all);
+    GoldenMaker late = fill({functionals, second}, third);
+    if (*rc::gen::arbitrary<bool>()) { // the later parts are joined first
+        late.append(fill({functionals, third}, all));
+        made.append(fill({functionals, pilot}, second));
+        made.append(late);
+    } else {
+        made.append(fill({functionals, pilot}, second));
+        made.append(late);
+        made.append(fill({functionals, third}, all));
+    }
+    made.write(folder / "made.exr", metadata, FilmState::omit);
+    RC_ASSERT(read_bytes(folder / "made.exr") == read_bytes(folder / "whole.exr"));
+}
+
+TEST(Golden, PartsThatDoNotFitAreRefused)
+{
+    const auto filled = [](GoldenMaker maker, std::uint64_t end, double value) {
+        for (std::uint64_t i = maker.film().range().end; i < end; ++i) {
+            Image batch(2, 1);
+            batch.pixels.assign(2, Rgb(value + static_cast<double>(i)));
+            maker.add_batch(batch);
+        }
+        return maker;
+    };
+    const GoldenMaker pilot = filled({2, 1, 4}, 4, 1.0);
+    const GoldenMaker other = filled({2, 1, 4}, 4, 2.0);
+    EXPECT_THROW(GoldenMaker(2, 1, 4, 4), std::invalid_argument);
+    EXPECT_THROW(GoldenMaker(*pilot.functionals(), 3), std::invalid_argument);
+    // The functionals of batches after a pilot that lacks its beginning are not known.
+    EXPECT_THROW(filled({2, 1, 4, 2}, 5, 1.0), std::invalid_argument);
+    const GoldenMaker later = filled({*pilot.functionals(), 4}, 6, 1.0);
+    GoldenMaker end_of_pilot = filled({2, 1, 4, 2}, 4, 1.0);
+    EXPECT_THROW(end_of_pilot.append(later), std::invalid_argument);
+    GoldenMaker of_other = other;
+    EXPECT_EQ(error_of<std::invalid_argument>([&] { of_other.append(later); }),
+              "the parts are made with different pilots");
+    GoldenMaker of_five = filled({2, 1, 5}, 4, 1.0);
+    EXPECT_THROW(of_five.append(later), std::invalid_argument);
+
+    const TemporaryFolder folder;
+    EXPECT_THROW((void)later.golden(metadata), std::invalid_argument);
+    EXPECT_THROW(later.write(folder / "a.exr", metadata, FilmState::omit), std::invalid_argument);
+    later.write(folder / "a.exr", metadata, FilmState::keep);
+    EXPECT_EQ(error_of<ImageError>([&] { golden::read_golden(folder / "a.exr"); }),
+              (folder / "a.exr").string() + ": a part of a golden: plumbline merge joins parts");
+}
+
 TEST(Golden, MeanIsThatOfAllBatchesAndTheReferenceThoseAfterThePilot)
 {
     GoldenMaker maker(2, 1, 2);
@@ -163,7 +233,7 @@ TEST(Golden, FilesThatAreNoGoldensAreRefusedWithTheReason)
     maker.add_batch(Image(3, 3));
     maker.write(folder / "c.exr", metadata, FilmState::omit);
     EXPECT_EQ(error_of<ImageError>([&] { GoldenMaker::resume(folder / "c.exr"); }),
-              (folder / "c.exr").string() + ": holds no state to resume from");
+              (folder / "c.exr").string() + ": holds no state to go on from");
 }
 
 TEST(Golden, DamagedMetadataIsAnErrorAndNoCrash)

@@ -93,7 +93,8 @@ TEST(Exr, AStateOfAnEarlierVersionIsNamedAsSuch)
     const TemporaryFolder folder;
     images::write_exr(folder / "a.exr", film_of(Image(2, 2)), {}, {}, FilmState::omit);
     EXPECT_EQ(images::read_exr(folder / "a.exr").no_state, "holds no state to go on from");
-    const ForeignChannels channels = {{"R", {1.0f}}, {"G", {1.0f}}, {"B", {1.0f}}, {"state.mean.R.hi", {0.0f}}};
+    const ForeignChannels channels = {
+        {"R", {1.0f}}, {"G", {1.0f}}, {"B", {1.0f}}, {"state.mean.R.hi", {0.0f}}};
     write_foreign(folder / "old.exr", Imf::Header(1, 1), channels, Imf::FLOAT);
     const ExrPicture old = images::read_exr(folder / "old.exr");
     EXPECT_TRUE(old.has_state);

@@ -48,12 +48,15 @@ TEST(Film, FewerThanTwoBatchesSayNothingAboutTheError)
 }
 
 // The comparison is with the sums computed in two passes, in 64-bit significands. With u = 2^-53,
-// |x| <= M, all x within a range R, and at most L joins between a batch and the total, to first order in u:
-// - A join of m and n batches rounds the mean by at most u (M + 3 R), and averages the errors of its halves:
+// |x| <= M, all x within a range R, and at most L joins between a batch and the total, to first order in
+// u:
+// - A join of m and n batches rounds the mean by at most u (M + 3 R), and averages the errors of its
+// halves:
 //   the mean's error is at most e = L u (M + 3 R).
-// - It adds w d^2 to the squares, with w = m n / (m + n) and a distance d that is off by 2 e + u R. On one
-//   level of blocks the weights w add up to n / 4; those of the last joins, of blocks of different sizes, to
-//   at most n. So these errors are at most n (L / 4 + 1) 2 R (2 e + u R).
+// - It adds w d^2 to the squares, with w = m n / (m + n) and a distance d that is off by 2 e + u R. On
+// one
+//   level of blocks the weights w add up to n / 4; those of the last joins, of blocks of different
+//   sizes, to at most n. So these errors are at most n (L / 4 + 1) 2 R (2 e + u R).
 // - The terms w d^2 add up to at most n R^2 / 4. Each has four roundings, and takes part in 2 L sums.
 // All are doubled for the higher orders.
 RC_GTEST_PROP(Film, AgreesWithTwoPassesInHigherPrecision, ()) // map: moments
@@ -173,8 +176,8 @@ TEST(Film, AnotherSizeIsRefused)
     EXPECT_THROW(Film(2, 3, {0, 3}, {{Image(2, 3), Image(2, 3)}}), std::invalid_argument);
 }
 
-// The largest blocks: they cover the range, a block of 2^k batches begins at a multiple of 2^k, and no two
-// are the halves of a block.
+// The largest blocks: they cover the range, a block of 2^k batches begins at a multiple of 2^k, and no
+// two are the halves of a block.
 RC_GTEST_PROP(BatchRange, IsARowOfLargestBlocks, ())
 {
     const auto end = *rc::gen::resize(100, rc::gen::arbitrary<std::uint64_t>());
@@ -197,7 +200,8 @@ TEST(BatchRange, IsWrittenWithTwoDots)
     EXPECT_EQ(images::parse_range("4..8"), (images::BatchRange{4, 8}));
     EXPECT_EQ(describe(images::BatchRange{4, 8}), "4..8");
     EXPECT_EQ(images::parse_range("4..4"), (images::BatchRange{4, 4}));
-    for (const char* text : {"", "4", "4..", "..8", "8..4", "4.8", "4...8", "-1..8", "4..99999999999999999999"})
+    for (const char* text :
+         {"", "4", "4..", "..8", "8..4", "4.8", "4...8", "-1..8", "4..99999999999999999999"})
         EXPECT_EQ(images::parse_range(text), std::nullopt) << text;
 }
 

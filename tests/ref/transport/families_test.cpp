@@ -98,9 +98,8 @@ TEST_P(WithoutAFamily, ThePictureLacksItsWeightedLayers)
     const auto rendered = [&](images::StrategySums& layers) {
         images::Film film(width, height);
         const auto renderer = ref::renderer(scene, width, height, options, 2);
-        images::fill(film, 3, *renderer, {}, [&](const images::Batch& batch) {
-            layers.add(batch.strategies);
-        });
+        images::fill(film, 3, *renderer, {},
+                     [&](const images::Batch& batch) { layers.add(batch.strategies); });
         return film.mean();
     };
     images::StrategySums layers;

@@ -105,8 +105,7 @@ TEST_P(Splats, AreDividedBySamplesPerPixelOnce)
     const images::Image mean = film.mean();
     for (std::size_t i = 0; i < sum.pixels.size(); ++i)
         for (int channel = 0; channel < 3; ++channel)
-            EXPECT_NEAR(mean.pixels[i][channel], sum.pixels[i][channel],
-                        1e-12 * sum.pixels[i][channel]);
+            EXPECT_NEAR(mean.pixels[i][channel], sum.pixels[i][channel], 1e-12 * sum.pixels[i][channel]);
 }
 
 } // namespace

@@ -137,7 +137,8 @@ TEST(Render, ASplatCountsOnceAndIsDividedBySamplesPerPixel) // map: splat
         out.push_back({(id.pixel + 100) % (width * height), 2, 1, Rgb(1.0, 2.0, 4.0), 0.5});
     };
     const images::Film film = rendered(one_each, 2, 2);
-    for (const images::Image mean = film.mean(); const Rgb& pixel : mean.pixels) ASSERT_EQ(pixel, Rgb(0.5, 1.0, 2.0));
+    for (const images::Image mean = film.mean(); const Rgb& pixel : mean.pixels)
+        ASSERT_EQ(pixel, Rgb(0.5, 1.0, 2.0));
 }
 
 // Batch n draws the samples n B ... n B + B - 1 of every pixel: none twice, none left out. Batches that
@@ -151,7 +152,8 @@ TEST(Render, DrawsEverySampleOfAPixelOnce)
         out.push_back({id.pixel, 0, 2, Rgb(number, number * number, 1.0), 1.0});
     };
     const images::Film film = rendered(its_number, 2, 2);
-    for (const images::Image mean = film.mean(); const Rgb& pixel : mean.pixels) ASSERT_EQ(pixel, Rgb(6.0 / 4.0, 14.0 / 4.0, 1.0));
+    for (const images::Image mean = film.mean(); const Rgb& pixel : mean.pixels)
+        ASSERT_EQ(pixel, Rgb(6.0 / 4.0, 14.0 / 4.0, 1.0));
 }
 
 /// One finite contribution; and for every third pixel one that is not finite, to its own pixel or as a
@@ -188,10 +190,10 @@ TEST(Render, LeavesOutWhatIsNotFiniteAndSaysHowMuch)
                                              .batch_size = 2,
                                              .strategies = images::StrategyPictures::unweighted},
                                             threads);
-        ASSERT_TRUE(images::fill(film, 3, *renderer, monitor, [&](const images::Batch& batch) {
-            strategies.add(batch.strategies);
-        }));
-        for (const images::Image mean = film.mean(); const Rgb& pixel : mean.pixels) ASSERT_EQ(pixel, Rgb(1.0));
+        ASSERT_TRUE(images::fill(film, 3, *renderer, monitor,
+                                 [&](const images::Batch& batch) { strategies.add(batch.strategies); }));
+        for (const images::Image mean = film.mean(); const Rgb& pixel : mean.pixels)
+            ASSERT_EQ(pixel, Rgb(1.0));
         EXPECT_EQ(strategies.means(2).size(),
                   1u); // only (0, 2): the others have no finite contribution
         EXPECT_EQ(reports, 3);
