@@ -26,7 +26,7 @@ void BatchMoments::join(const BatchMoments& other, std::uint64_t own, std::uint6
     const auto n = static_cast<double>(others);
     const double share = n / (m + n);
     for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-        // map: moments [Chan 1979, eq. 2.1]
+        // map: moments [Chan, Golub, LeVeque 1979, eq. 2.1]
         const Rgb distance = other.mean.pixels[i] - mean.pixels[i];
         mean.pixels[i] += distance * share;
         squares.pixels[i] += other.squares.pixels[i] + distance * distance * (m * share);

@@ -19,7 +19,7 @@ FORMULAS = {
     "edge functions": r"U = C_x B_y - C_y B_x",
     "SAH cost": r"C_{\text{trav}} \frac{A}{A_{\text{root}}}",
     "Importance of the film": r"\frac{1}{A \cos^4\theta}",
-    "Welford": r"\frac{x_n - m_{n-1}}{n}",
+    "two blocks of batches": r"\frac{n_a n_b}{n_a + n_b} (m_b - m_a)^2",
     "Choice of the emitter": r"\frac{\Phi_i}{\sum_j \Phi_j}",
     "Emission of a spot light": r"I \cos^n\theta",
     "Cosine sampling": r"p_\sigma = \frac{\cos\theta}{\pi}",
