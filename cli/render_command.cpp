@@ -173,6 +173,8 @@ void add_render_command(CLI::App& program, Work& work)
         "Example: plumbline render scenes/cornell_glass.dae -o glass.exr -o glass.png -s 256");
     command->callback([options, command, &work] {
         work = [options, command] {
+            if (command->count("--samples") > 0 && command->count("--batches") > 0)
+                throw std::invalid_argument("--batches takes the place of --samples: name one of them");
             settle_batch_size(*options, command->count("--batch") > 0);
             expect_no_idle_options(*command, *options);
             return render(*options);

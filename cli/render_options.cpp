@@ -67,8 +67,7 @@ void add_picture_options(CLI::App& command, RenderCommand& options)
     command
         .add_option("--batches", options.batches,
                     "In place of -s: batches A to B - 1 alone, as A..B; see plumbline merge")
-        ->check(expect_batches)
-        ->excludes(command.get_option("--samples"));
+        ->check(expect_batches);
 }
 
 /// The processor that renders.
