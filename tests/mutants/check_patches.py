@@ -1,5 +1,5 @@
 """The quick check of tests/mutants/patches/, for ./run test: every head is complete, every patch applies to the sources, and
-every test and target that it names is there. Prints what is wrong, and exits with 1 if anything is.
+every test and target that it names is there, and those of first_tests.txt. Prints what is wrong, and exits with 1 if anything is.
 
 check_patches.py [ROOT]
 """
@@ -84,11 +84,18 @@ def faults_of(made, tests, targets):
             yield f"{made.name}.patch: there is no test {pattern}"
 
 
+def first_tests_that_are_none(root, tests):
+    """Sentences about the list of tests with which ctest begins."""
+    names = (root / "tests/mutants/first_tests.txt").read_text().splitlines()
+    return [f"../first_tests.txt: there is no test {name}" for name in names if not exists(name, tests)]
+
+
 def main(root=mutant.ROOT):
     mutants, faults = readable(mutant.PATCHES)
     tests, targets = frozenset(defined_tests(root)), defined_targets(root)
     faults += do_not_apply(mutants, root)
     faults += [fault for made in mutants for fault in faults_of(made, tests, targets)]
+    faults += first_tests_that_are_none(root, tests)
     diffs = {}
     for made in mutants:
         if (first := diffs.setdefault(made.diff, made.name)) != made.name:

@@ -157,12 +157,14 @@ class Tables(unittest.TestCase):
 
 
 class Check(unittest.TestCase):
-    def complaints(self, files):
+    def complaints(self, files, first="Sum.Adds"):
         with tempfile.TemporaryDirectory() as folder:
             root, patches = Toy(folder).root, pathlib.Path(folder, "patches")
             (root / "CMakeLists.txt").write_text("add_executable(other other.cpp)\n")
             (root / "tests/CMakeLists.txt").write_text("plumbline_test_folder(toy SOURCES a.cpp)\n")
             (root / "tests/sum_test.cpp").write_text("TEST(Sum, Adds)\nRC_GTEST_PROP(Kinds, Fit,\nTYPED_TEST(Typed, Works)\n")
+            (root / "tests/mutants").mkdir()
+            (root / "tests/mutants/first_tests.txt").write_text(f"{first}\n")
             patches.mkdir()
             for name, text in files.items():
                 (patches / name).write_text(text)
@@ -175,6 +177,10 @@ class Check(unittest.TestCase):
     def test_nothing_is_wrong(self):
         every = "Sum.*, All/Kinds.Fit/0, Typed/0.Works, *Adds"
         self.assertEqual(self.complaints({"m.patch": patch(head=HEAD.replace("Sum.Adds", every))}), "")
+
+    def test_first_tests_exist(self):
+        said = self.complaints({"m.patch": patch()}, first="Sum.Divides")
+        self.assertIn("first_tests.txt: there is no test Sum.Divides", said)
 
     def test_faults(self):
         stale = patch(diff=toy_mutant("m", "echo 1").diff.replace("$1 + $2", "$1 * $2"))
