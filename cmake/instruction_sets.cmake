@@ -3,7 +3,8 @@
 set(PLUMBLINE_AVX2_FLAGS -march=x86-64-v3 -maes -mpclmul)
 set(PLUMBLINE_AVX512_FLAGS -march=x86-64-v4 -maes -mpclmul)
 set(PLUMBLINE_INSTRUCTION_SETS OFF)
-if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND NOT PLUMBLINE_SANITIZE)
+option(PLUMBLINE_QUICK_KERNELS "Compile the host's kernels for the default instruction set alone, in a third of the time: they are slower" OFF)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND NOT PLUMBLINE_SANITIZE AND NOT PLUMBLINE_QUICK_KERNELS)
     set(PLUMBLINE_INSTRUCTION_SETS ON)
     include(CheckCXXSourceRuns)
     set(CMAKE_REQUIRED_FLAGS "-march=x86-64-v3 -maes -mpclmul")
@@ -19,6 +20,10 @@ set(PLUMBLINE_KERNEL_FLAGS -fno-math-errno -fno-trapping-math -O3 -fno-tree-vect
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     list(APPEND PLUMBLINE_KERNEL_FLAGS --param=max-inline-insns-single=1000 --param=inline-unit-growth=200
         --param=large-function-growth=1000 --param=large-function-insns=20000)
+endif()
+
+if(PLUMBLINE_QUICK_KERNELS) # no bit depends on this either
+    set(PLUMBLINE_KERNEL_FLAGS -fno-math-errno -fno-trapping-math -O1)
 endif()
 
 # `fastmath` (cuda/launch/instruction_set.h): the kernels once more, with rounding left to the compiler, for the best
