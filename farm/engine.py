@@ -5,9 +5,11 @@ import itertools
 import logging
 import os
 import pathlib
+import pickle
 import queue
 import sys
 import threading
+import time
 
 os.environ.setdefault("DASK_CONFIG", str(pathlib.Path(__file__).parent / "dask.yaml"))  # read by the import of dask
 
@@ -22,13 +24,24 @@ from job import JobError  # noqa: E402
 FETCHERS = 4  # threads that wait for results
 NEWS_SECONDS = 1  # between questions to the scheduler for its workers
 
-# Workers have no copy of farm/: its functions travel with the tasks.
+# Scheduler and workers have no copy of farm/: its functions travel with the tasks.
 cloudpickle.register_pickle_by_value(task_module)
 cloudpickle.register_pickle_by_value(sys.modules[__name__])
 
 
 def _at_worker(task):
     return distributed.get_worker().address, task_module.run(task)
+
+
+class _Call:
+    """What becomes the answer to a task where it is unpickled: at the worker. (Of a function of farm/, as Dask sends them, the
+    scheduler would want the module.)"""
+
+    def __init__(self, task):
+        self._task = task
+
+    def __reduce__(self):
+        return _at_worker, (self._task,)
 
 
 class DaskEngine:
@@ -53,8 +66,6 @@ class DaskEngine:
             threading.Thread(target=_fetch, args=(self._to_fetch, self._ended), daemon=True).start()
 
     def workers(self):
-        import time
-
         if time.monotonic() - self._asked >= NEWS_SECONDS:
             self._workers = self._ask(lambda: self._client.nthreads())
             self._asked = time.monotonic()
@@ -63,9 +74,8 @@ class DaskEngine:
     def submit(self, task, allowed):
         number = next(self._numbers)
         only = None if allowed >= self._workers.keys() else sorted(allowed)
-        future = self._ask(
-            lambda: self._client.submit(_at_worker, task, key=f"batches-{number}-{os.urandom(4).hex()}", pure=False, workers=only)
-        )
+        call, key = cloudpickle.dumps(_Call(task)), f"batches-{number}-{os.urandom(4).hex()}"
+        future = self._ask(lambda: self._client.submit(pickle.loads, call, key=key, pure=False, workers=only))
         self._futures[number] = future
         future.add_done_callback(lambda done, to=self._to_fetch: to.put((number, done)))
         return number
@@ -131,8 +141,13 @@ def _fetch(futures, ended):
         except distributed.client.FutureCancelledError:
             worker, answer = None, {"kind": "lost", "message": CANCELLED}
         except Exception as error:  # of the engine, in any task
-            worker, answer = None, {"kind": "lost", "message": f"{type(error).__name__}: {str(error).strip().splitlines()[:1]}"}
+            worker, answer = None, {"kind": "lost", "message": _one_line(error)}
         ended.put(Event(number, worker, answer))
+
+
+def _one_line(error):
+    lines = str(error).strip().splitlines()
+    return f"{type(error).__name__}: {lines[0]}" if lines else type(error).__name__
 
 
 def local(workers):

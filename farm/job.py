@@ -73,7 +73,7 @@ class Job:
                 kept.append(word)
         return {
             "scene": hashlib.sha256(self.scene.read_bytes()).hexdigest(),
-            "kind": f"golden with a pilot of {self.pilot} batches" if self.golden else "render",
+            "kind": f"golden of {self.samples} samples, pilot of {self.pilot} batches" if self.golden else "render",
             "batch": self.batch,
             "options": kept,
             "version": self.version,
@@ -85,7 +85,7 @@ class Job:
                      "--batch", str(self.batch), "-q", *self.options]  # fmt: skip
         files = {"SCENE": self.scene}
         if self.golden:
-            arguments += ["--pilot", str(self.pilot)]
+            arguments += ["--pilot", str(self.pilot), "-s", str(self.samples)]
             if batches.begin >= self.pilot:
                 arguments += ["--pilot-file", "PILOT"]
                 files["PILOT"] = pilot

@@ -1,4 +1,4 @@
-#!/usr/bin/env -S python3 -S -E
+#!/usr/bin/python3 -SE
 """A program with the commands of plumbline that ./run farm uses, whose parts are text: one line for each batch, and a checksum.
 
 Environment: FAKE_SECONDS for each batch; FAKE_VERSION; FAKE_FAIL, the message with which render and golden end.
