@@ -14,19 +14,15 @@ import time
 from typing import NamedTuple
 
 from blame import Blame
+from connection import EngineLost, connect
 from job import JobError
 from ranges import Gaps, Range
+from tries import Counts, Tries
 
-SAME_ERROR = 3  # workers that must say the same before it counts as the task's fault
-LOSSES = 3  # times that a task may be lost with its workers (each time the engine itself has tried several)
 SLOW = 4  # a task that takes this many times the expected time is a straggler
 SLOW_SECONDS = 5  # at least
 TURN = 0.5  # seconds that a turn of the loop waits
 SHARED_FOLDER_SECONDS = 5  # until a part that another machine wrote must be visible here
-
-
-class EngineLost(Exception):
-    """The engine does not answer. What it had begun is lost."""
 
 
 class Event(NamedTuple):
@@ -45,47 +41,37 @@ class Attempt:
     copy: bool = False
 
 
-@dataclasses.dataclass
-class Counts:
-    """What happened, for the last line and for the table of faults."""
-
-    tasks: int = 0
-    failed: int = 0
-    lost: int = 0
-    copies: int = 0
-    reconnections: int = 0
-
-    def __str__(self):
-        more = (
-            (self.failed, "failed and tried again"),
-            (self.lost, "lost with their workers"),
-            (self.copies, "second copies"),
-            (self.reconnections, "times connected again"),
-        )
-        return ", ".join([f"{self.tasks} tasks", *(f"{number} {what}" for number, what in more if number)])
-
-
 class Driver:
-    def __init__(self, engine, job, parts, speed, progress, return_parts=False, patience=600.0, clock=time.monotonic, pause=time.sleep):
-        self.engine, self.job, self.parts, self.speed, self.progress = engine, job, parts, speed, progress
+    """`open_engine`: begins the engine, when there is something to render."""
+
+    def __init__(
+        self, open_engine, job, parts, speed, progress, return_parts=False, patience=600.0, clock=time.monotonic, pause=time.sleep
+    ):
+        self.open_engine, self.job, self.parts, self.speed, self.progress = open_engine, job, parts, speed, progress
+        self.engine = None
         self.return_parts, self.patience, self.clock, self.pause = return_parts, patience, clock, pause
         self.blame, self.counts = Blame(), Counts()
         self.flight = {}  # attempts that run
         self.again = []  # ranges to be tried again
-        self._errors = {}  # range: {worker: message}
-        self._losses = {}
+        self._tries = Tries()
         self._most_workers = 0
         self._busy = clock()  # when a task ran last
 
     def render(self, whole):
         """Returns when all parts of `whole` are there. Raises JobError."""
         self.gaps = Gaps(self.parts.missing(whole))
+        if self.gaps.batches and self.engine is None:
+            self.engine = self.open_engine()
         self._busy = self.clock()
         while self.gaps.batches or self.again or self.flight:
             try:
                 self._turn()
             except EngineLost as lost:
                 self._connect_again(lost)
+
+    def close(self):
+        if self.engine is not None:
+            self.engine.close()
 
     def _turn(self):
         workers = self.engine.workers()
@@ -114,13 +100,10 @@ class Driver:
             if self.parts.path(batches).exists():  # of an attempt that was lost
                 self.progress.rendered(batches.size)
                 continue
-            failed = self._errors.get(batches, {})
-            allowed = frozenset(usable) - failed.keys()
-            if allowed:
+            if allowed := frozenset(usable) - self._tries.failed_at(batches):
                 self._begin(batches, allowed)
-            elif len(failed) >= min(SAME_ERROR, self._most_workers):
-                raise JobError(self._errors_of(batches))
             else:  # workers that are gone now may come back
+                self._tries.expect_others(batches, self._most_workers)
                 later.append(batches)
         self.again += later
 
@@ -148,7 +131,7 @@ class Driver:
             if expected is None or seconds < max(SLOW * expected, SLOW_SECONDS) or len(self._copies(attempt.batches)) > 1:
                 continue
             where = self.engine.where(name)
-            allowed = frozenset(usable) - {where} - self._errors.get(attempt.batches, {}).keys()
+            allowed = frozenset(usable) - {where} - self._tries.failed_at(attempt.batches)
             if where and allowed and idle > 0:
                 idle -= 1
                 self.counts.copies += 1
@@ -193,10 +176,7 @@ class Driver:
     def _error(self, attempt, event):
         self.counts.failed += 1
         message = event.answer["message"]
-        errors = self._errors.setdefault(attempt.batches, {})
-        errors[event.worker] = message
-        if list(errors.values()).count(message) >= SAME_ERROR:
-            raise JobError(self._errors_of(attempt.batches))
+        self._tries.error(attempt.batches, event.worker, message)
         self.progress.say(f"batches {attempt.batches}: failed at {event.worker}: {message}")
         if self.blame.failed(event.worker):
             self.progress.say(f"{event.worker}: failed several tasks in a row, and gets no more while others succeed")
@@ -211,9 +191,7 @@ class Driver:
 
     def _lost(self, attempt, event):
         self.counts.lost += 1
-        losses = self._losses[attempt.batches] = self._losses.get(attempt.batches, 0) + 1
-        if losses >= LOSSES:
-            raise JobError(f"batches {attempt.batches}: worker after worker is lost with this task: {event.answer['message']}")
+        self._tries.lost(attempt.batches, event.answer["message"])
         self.progress.say(f"batches {attempt.batches}: {event.answer['message']}; again")
         self._retry(attempt)
 
@@ -221,13 +199,9 @@ class Driver:
         if not self._copies(attempt.batches) and attempt.batches not in self.again:
             self.again.append(attempt.batches)
 
-    def _errors_of(self, batches):
-        errors = self._errors[batches]
-        return f"batches {batches}: {list(errors.values())[-1]} (at {len(errors)} worker{'s' if len(errors) > 1 else ''})"
-
     def _last_error(self):
-        waiting = [batches for batches in self.again if batches in self._errors]
-        return f"; {self._errors_of(waiting[0])}" if waiting else ""
+        failed = [batches for batches in self.again if self._tries.failed_at(batches)]
+        return f"; {self._tries.describe(failed[0])}" if failed else ""
 
     def _connect_again(self, lost):
         self.progress.say(f"{lost}; connecting again for at most {self.patience:.0f} seconds")
@@ -235,16 +209,7 @@ class Driver:
             if attempt.batches not in self.again:
                 self.again.append(attempt.batches)
         self.flight.clear()
-        end, wait = self.clock() + self.patience, 1.0
-        while True:
-            try:
-                self.engine.connect()
-                break
-            except EngineLost as still:
-                if self.clock() + wait > end:
-                    raise JobError(f"{still}, for {self.patience:.0f} seconds") from None
-            self.pause(wait)
-            wait = min(2 * wait, 30.0)
+        connect(self.engine, self.patience, self.clock, self.pause)
         self.counts.reconnections += 1
         self._busy = self.clock()
         self.progress.say(f"connected again; {len(self.again)} tasks are submitted again")

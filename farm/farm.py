@@ -1,14 +1,16 @@
 """./run farm SCENE --samples N: one picture on many workers, with the bits of one machine (docs/farm.md)."""
 
 import argparse
+import contextlib
 import os
 import pathlib
 import signal
 import sys
 import time
 
-import driver as driver_module
 import whole
+from connection import EngineLost
+from driver import Driver
 from job import Job, JobError
 from parts import Parts
 from progress import Progress
@@ -131,27 +133,27 @@ def farm(arguments, options, make_engine=dask_engine, out=None):
         return
     for path in arguments.output:
         path.parent.mkdir(parents=True, exist_ok=True)
-    parts = Parts(arguments.parts, job)
+    with contextlib.closing(Parts(arguments.parts, job)) as parts:
+        counts, seconds_taken = _make(arguments, job, parts, make_engine, out)
+        print(f"{arguments.output[0]}: {counts}, {seconds_taken:.0f} s", file=out)
+        if arguments.remove_parts:
+            parts.remove_all()
+
+
+def _make(arguments, job, parts, make_engine, out):
+    """(what happened, seconds)"""
     progress = Progress(0, job.batches.size, out, arguments.quiet)
     before = whole.rendered_before(parts, job, progress)
     progress = Progress(before, job.batches.size, out, arguments.quiet)
     begin = time.monotonic()
-    engine = None
+    speed = Speed(arguments.task_seconds, arguments.task_batches)
+    driver = Driver(lambda: make_engine(arguments), job, parts, speed, progress, arguments.return_parts, arguments.patience)
     try:
-        counts = driver_module.Counts()
-        if before < job.batches.size:
-            engine = make_engine(arguments)
-        speed = Speed(arguments.task_seconds, arguments.task_batches)
-        driver = driver_module.Driver(engine, job, parts, speed, progress, arguments.return_parts, arguments.patience)
-        counts = driver.counts
         whole.make(driver, arguments.output)
     finally:
         progress.end()
-        if engine:
-            engine.close()
-    print(f"{arguments.output[0]}: {counts}, {time.monotonic() - begin:.0f} s", file=out)
-    if arguments.remove_parts:
-        parts.remove_all()
+        driver.close()
+    return driver.counts, time.monotonic() - begin
 
 
 def _interrupted(number, frame):
@@ -163,7 +165,7 @@ def main(argv, make_engine=dask_engine):
     try:
         farm(*parse(argv), make_engine)
         return OK
-    except (JobError, driver_module.EngineLost) as error:
+    except (JobError, EngineLost) as error:
         print(f"farm: {error}", file=sys.stderr)
     except OSError as error:
         print(f"farm: {error.filename}: {error.strerror}" if error.filename else f"farm: {error}", file=sys.stderr)

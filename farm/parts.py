@@ -24,11 +24,16 @@ class Parts:
         try:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
+            self.close()
             raise JobError(f"{folder}: another ./run farm uses these parts") from None
         if different := same_identity(folder / "job.json", job.identity()):
+            self.close()
             raise JobError(f"{folder}: holds parts of another picture (other {', '.join(different)}): name another --parts")
         for left in folder.glob(".*.tmp-*"):  # of workers that are gone
             left.unlink(missing_ok=True)
+
+    def close(self):
+        self._lock.close()
 
     def path(self, batches):
         return self.folder / f"batches_{batches.begin:08}-{batches.end:08}.exr"

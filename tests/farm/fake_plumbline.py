@@ -22,9 +22,14 @@ def write(path, head, lines):
     os.replace(path + ".tmp", path)
 
 
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
 def read(path):
     """(head, lines)"""
-    text, mark, sum_ = open(path).read().rpartition("checksum ")
+    text, mark, sum_ = content(path).decode().rpartition("checksum ")
     if not mark or sum_ != f"{zlib.crc32(text.encode())}\n":
         raise ValueError("the checksum is not that of the content")
     head, *lines = text.splitlines()
@@ -49,7 +54,7 @@ def make(command, words):
     begin, end = map(int, option(words, "--batches").split(".."))
     out, pilot, pilot_file = option(words, "-o"), int(option(words, "--pilot", 0)), option(words, "--pilot-file")
     batch = option(words, "--batch", "4")
-    scene = zlib.crc32(open(words[0], "rb").read())
+    scene = zlib.crc32(content(words[0]))
     weights = ""
     if command == "golden" and begin >= pilot:
         if not pilot_file:
