@@ -130,6 +130,11 @@ class Driver:
             seconds = self.clock() - attempt.begin
             if expected is None or seconds < max(SLOW * expected, SLOW_SECONDS) or len(self._copies(attempt.batches)) > 1:
                 continue
+            if self.parts.path(attempt.batches).exists():  # its worker has stopped before it could say so
+                self.engine.cancel([name])
+                del self.flight[name]
+                self.progress.rendered(attempt.batches.size)
+                continue
             where = self.engine.where(name)
             allowed = frozenset(usable) - {where} - self._tries.failed_at(attempt.batches)
             if where and allowed and idle > 0:

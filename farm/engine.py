@@ -29,6 +29,11 @@ NEWS_SECONDS = 1  # between questions to the scheduler for its workers
 cloudpickle.register_pickle_by_value(task_module)
 cloudpickle.register_pickle_by_value(sys.modules[__name__])
 
+# What goes wrong is an event or an error here, in one line.
+for name in list(logging.root.manager.loggerDict):
+    if name.partition(".")[0] in ("distributed", "tornado", "asyncio"):
+        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+
 
 def _at_worker(task):
     return distributed.get_worker().address, task_module.run(task)

@@ -135,7 +135,7 @@ def farm(arguments, options, make_engine=dask_engine, out=None):
         path.parent.mkdir(parents=True, exist_ok=True)
     with contextlib.closing(Parts(arguments.parts, job)) as parts:
         counts, seconds_taken = _make(arguments, job, parts, make_engine, out)
-        print(f"{arguments.output[0]}: {counts}, {seconds_taken:.0f} s", file=out)
+        print(f"{arguments.output[0]}: {counts}; {seconds_taken:.0f} s", file=out)
         if arguments.remove_parts:
             parts.remove_all()
 

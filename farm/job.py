@@ -5,6 +5,7 @@ import hashlib
 import json
 import pathlib
 import subprocess
+import zlib
 
 import task
 from ranges import Range
@@ -95,7 +96,7 @@ class Job:
             "program": self.program_there or self.program,
             "version": self.version,
             "arguments": arguments,
-            "files": {word: str(path.resolve()) if part else (path.name, path.read_bytes()) for word, path in files.items()},
+            "files": {word: str(path.resolve()) if part else (path.name, zlib.compress(path.read_bytes())) for word, path in files.items()},
             "part": str(part.resolve()) if part else None,
         }
 

@@ -4,7 +4,7 @@ A task is a dictionary:
   program    the program on the worker
   version    what its --version must print in the first line
   arguments  with the words SCENE, PILOT and PART in place of files
-  files      SCENE and PILOT: a path, or (name, bytes) to be written into a folder of the worker
+  files      SCENE and PILOT: a path, or (name, bytes of zlib) to be written into a folder of the worker
   part       the part's path in the shared folder, or None: its bytes are returned
 The answer is a dictionary too: `kind` is "done", "error" (of the program, in `message`), or "foreign" (another version, in `message`).
 """
@@ -16,6 +16,7 @@ import subprocess
 import tempfile
 import time
 import uuid
+import zlib
 
 LOOK_SECONDS = 2  # between looks whether another worker has made the part
 
@@ -72,7 +73,7 @@ def _place(file, folder):
     name, content = file
     path = os.path.join(folder, os.path.basename(name))
     with open(path, "wb") as out:
-        out.write(content)
+        out.write(zlib.decompress(content))
     return path
 
 

@@ -21,12 +21,12 @@ class Counts:
 
     def __str__(self):
         more = (
-            (self.failed, "failed and tried again"),
-            (self.lost, "lost with their workers"),
-            (self.copies, "second copies"),
-            (self.reconnections, "times connected again"),
+            ("failed and tried again", self.failed),
+            ("lost with their workers", self.lost),
+            ("second copies", self.copies),
+            ("connected again", self.reconnections),
         )
-        return ", ".join([f"{self.tasks} tasks", *(f"{number} {what}" for number, what in more if number)])
+        return "; ".join([f"{self.tasks} tasks", *(f"{what}: {number}" for what, number in more if number)])
 
 
 class Tries:

@@ -113,7 +113,7 @@ class Command(unittest.TestCase):
         self.assertEqual(status, 0, said)
         self.assertEqual(self.whole.read_bytes(), self.single())
         self.assertTrue(self.engine.closed)
-        self.assertRegex(said, r"whole.exr: \d+ tasks, \d+ s\n$")
+        self.assertRegex(said, r"whole.exr: \d+ tasks; \d+ s\n$")
 
     def test_parts_that_come_back(self):
         status, said = self.farm("--return-parts", "--task-batches", "4")

@@ -5,6 +5,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import zlib
 from unittest import mock
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -37,7 +38,7 @@ class Tasks(unittest.TestCase):
     def test_a_part(self):
         self.assertEqual(task.run(self.task())["kind"], "done")
         self.assertEqual(self.left(), ["batches_00000000-00000002.exr", "scene.dae"])
-        returned = task.run(self.task(part=None, files={"SCENE": ("scene.dae", b"scene")}))
+        returned = task.run(self.task(part=None, files={"SCENE": ("scene.dae", zlib.compress(b"scene"))}))
         self.assertEqual(returned["bytes"], self.part.read_bytes())
 
     def test_an_error_is_one_line_and_leaves_nothing(self):
