@@ -2,25 +2,23 @@
 
 The engine (engine.py; in tests a fake one) has these functions. Each may raise EngineLost.
   workers()             {worker: tasks that it runs at once}
-  submit(task, allowed) begins a task on one of the workers `allowed` (None: any); the name of this attempt
+  submit(task, allowed) begins a task on one of the workers `allowed`; the name of this attempt
   wait(seconds)         what has ended: [Event], after at most `seconds`
   where(attempt)        the worker that has it, or None
   cancel(attempts)      their ends are of no interest any more
   connect()             after EngineLost
 """
 
-import dataclasses
 import time
 from typing import NamedTuple
 
 from blame import Blame
 from connection import EngineLost, connect
+from flight import Attempt, Flight
 from job import JobError
-from ranges import Gaps, Range
+from ranges import Gaps
 from tries import Counts, Tries
 
-SLOW = 4  # a task that takes this many times the expected time is a straggler
-SLOW_SECONDS = 5  # at least
 TURN = 0.5  # seconds that a turn of the loop waits
 SHARED_FOLDER_SECONDS = 5  # until a part that another machine wrote must be visible here
 
@@ -33,14 +31,6 @@ class Event(NamedTuple):
     answer: dict
 
 
-@dataclasses.dataclass
-class Attempt:
-    batches: Range
-    allowed: frozenset
-    begin: float
-    copy: bool = False
-
-
 class Driver:
     """`open_engine`: begins the engine, when there is something to render."""
 
@@ -51,7 +41,7 @@ class Driver:
         self.engine = None
         self.return_parts, self.patience, self.clock, self.pause = return_parts, patience, clock, pause
         self.blame, self.counts = Blame(), Counts()
-        self.flight = {}  # attempts that run
+        self.flight = Flight()
         self.again = []  # ranges to be tried again
         self._tries = Tries()
         self._most_workers = 0
@@ -107,44 +97,37 @@ class Driver:
                 later.append(batches)
         self.again += later
 
-    def _begin(self, batches, allowed, copy=False):
+    def _begin(self, batches, allowed):
         task = self.job.task(batches, None if self.return_parts else self.parts.path(batches), self.parts.pilot)
         attempt = self.engine.submit(task, allowed)
-        self.flight[attempt] = Attempt(batches, allowed, self.clock(), copy)
+        self.flight[attempt] = Attempt(batches, allowed, self.clock())
 
     def _take_back_stranded(self, workers):
         """Attempts whose workers are all gone."""
-        for name, attempt in list(self.flight.items()):
-            if not attempt.allowed & workers.keys():
-                self.engine.cancel([name])
-                del self.flight[name]
-                self._retry(attempt)
+        for name, attempt in self.flight.stranded(workers):
+            self._forget([name])
+            self._retry(attempt)
 
     def _copy_stragglers(self, usable):
         """At the end, idle workers get second copies of tasks that take too long. Both copies have the same bits."""
-        idle = sum(usable.values()) - len(self.flight)
-        if self.gaps.batches or self.again or idle <= 0:
+        if self.gaps.batches or self.again:
             return
-        for name, attempt in list(self.flight.items()):
-            expected = self.speed.expected(attempt.batches.size)
-            seconds = self.clock() - attempt.begin
-            if expected is None or seconds < max(SLOW * expected, SLOW_SECONDS) or len(self._copies(attempt.batches)) > 1:
-                continue
+        for name, attempt in self.flight.late(self.clock(), self.speed):
             if self.parts.path(attempt.batches).exists():  # its worker has stopped before it could say so
-                self.engine.cancel([name])
-                del self.flight[name]
+                self._forget([name])
                 self.progress.rendered(attempt.batches.size)
-                continue
-            where = self.engine.where(name)
-            allowed = frozenset(usable) - {where} - self._tries.failed_at(attempt.batches)
-            if where and allowed and idle > 0:
-                idle -= 1
-                self.counts.copies += 1
-                self.progress.say(f"batches {attempt.batches}: {seconds:.0f} s at {where}; a second copy begins elsewhere")
-                self._begin(attempt.batches, allowed, copy=True)
+            elif len(self.flight) < sum(usable.values()) and (where := self.engine.where(name)):
+                allowed = frozenset(usable) - {where} - self._tries.failed_at(attempt.batches)
+                if allowed:
+                    seconds = self.clock() - attempt.begin
+                    self.progress.say(f"batches {attempt.batches}: {seconds:.0f} s at {where}; a second copy begins elsewhere")
+                    self.counts.copies += 1
+                    self._begin(attempt.batches, allowed)
 
-    def _copies(self, batches):
-        return [name for name, attempt in self.flight.items() if attempt.batches == batches]
+    def _forget(self, names):
+        self.engine.cancel(names)
+        for name in names:
+            del self.flight[name]
 
     def _ended(self, event):
         attempt = self.flight.pop(event.attempt, None)
@@ -165,10 +148,7 @@ class Driver:
         self.counts.tasks += 1
         self.speed.add(attempt.batches.size, event.answer["seconds"])
         self.progress.rendered(attempt.batches.size)
-        copies = self._copies(attempt.batches)
-        self.engine.cancel(copies)
-        for name in copies:
-            del self.flight[name]
+        self._forget(self.flight.of(attempt.batches))
 
     def _visible(self, path):
         end = self.clock() + SHARED_FOLDER_SECONDS
@@ -201,7 +181,7 @@ class Driver:
         self._retry(attempt)
 
     def _retry(self, attempt):
-        if not self._copies(attempt.batches) and attempt.batches not in self.again:
+        if not self.flight.of(attempt.batches) and attempt.batches not in self.again:
             self.again.append(attempt.batches)
 
     def _last_error(self):

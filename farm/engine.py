@@ -7,6 +7,7 @@ import os
 import pathlib
 import pickle
 import queue
+import shlex
 import sys
 import threading
 import time
@@ -14,7 +15,6 @@ import time
 os.environ.setdefault("DASK_CONFIG", str(pathlib.Path(__file__).parent / "dask.yaml"))  # read by the import of dask
 
 import cloudpickle  # noqa: E402
-import dask.config  # noqa: E402
 import distributed  # noqa: E402
 
 import task as task_module  # noqa: E402
@@ -160,11 +160,20 @@ def local(workers):
     """Makes a cluster of processes of this machine."""
     return lambda: distributed.LocalCluster(
         n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None, memory_limit=0,
-        silence_logs=logging.CRITICAL, local_directory=None,
+        silence_logs=logging.CRITICAL,
     )  # fmt: skip
 
 
-def batch_system(kind, workers, cores, memory, walltime, queue_name, account, directives):
+# Class of dask-jobqueue, its word for an account, and how it is asked for processors.
+BATCH_SYSTEMS = {
+    "slurm": ("SLURMCluster", "account", lambda cores, memory: {"job_cpu": cores}),
+    "pbs": ("PBSCluster", "account", lambda cores, memory: {"resource_spec": f"select=1:ncpus={cores}:mem={memory}"}),
+    "lsf": ("LSFCluster", "project", lambda cores, memory: {"ncpus": cores}),
+    "sge": ("SGECluster", "project", lambda cores, memory: {}),  # by a directive, as "-pe smp 4": its name is the site's
+}
+
+
+def batch_system(kind, jobs, cores, memory, walltime, queue_name, account, directives):
     """Makes jobs of SLURM, PBS and others, with dask-jobqueue: one worker a job, which runs one task at a time."""
 
     def make():
@@ -172,13 +181,13 @@ def batch_system(kind, workers, cores, memory, walltime, queue_name, account, di
             import dask_jobqueue
         except ImportError:
             raise JobError("dask-jobqueue is not installed: run farm/install.sh build/farm/venv jobqueue") from None
-        cluster_class = {"slurm": "SLURMCluster", "pbs": "PBSCluster", "sge": "SGECluster", "lsf": "LSFCluster"}[kind]
-        dask.config.set({"distributed.worker.resources": {}})
-        cluster = getattr(dask_jobqueue, cluster_class)(
-            cores=1, processes=1, memory=memory, walltime=walltime, queue=queue_name, account=account,
-            job_extra_directives=directives, **({"job_cpu": cores} if kind == "slurm" else {}),
+        class_name, account_word, processors = BATCH_SYSTEMS[kind]
+        cluster = getattr(dask_jobqueue, class_name)(
+            cores=1, processes=1, memory=memory, walltime=walltime, queue=queue_name, job_extra_directives=directives,
+            job_script_prologue=[f"export DASK_CONFIG={shlex.quote(os.environ['DASK_CONFIG'])}"],
+            scheduler_options={"dashboard_address": None}, **{account_word: account}, **processors(cores, memory),
         )  # fmt: skip
-        cluster.scale(jobs=workers)
+        cluster.scale(jobs=jobs)
         return cluster
 
     return make
