@@ -73,7 +73,7 @@ def main():
     sample = arguments.seconds_per_sample or measured["seconds_per_sample"]
     costs = Costs(
         batch=pixels * arguments.batch * sample,
-        overhead=measured["overhead_seconds_per_task"] + measured["program_seconds"],
+        overhead=measured["overhead_seconds_per_task"],
         serial=measured["serial_seconds_per_task"],
         merge=measured["merge_seconds_per_part_and_megapixel"] * pixels / 1e6,
     )

@@ -26,7 +26,7 @@ class Progress:
 
     def state(self, workers, tasks):
         """Called often."""
-        self._line = f"{self.done} of {self.all} batches; {tasks} tasks at {workers} workers{self.remaining()}"
+        self._line = f"{self.done} of {self.all} batches; {tasks} tasks, {workers} workers{self.remaining()}"
         if self.terminal:
             self._show()
         elif not self.quiet and (self._said is None or self.clock() - self._said >= SECONDS_BETWEEN_LINES):

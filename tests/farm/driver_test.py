@@ -5,11 +5,13 @@ import pathlib
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "farm"))
 
 import driver as driver_module  # noqa: E402
 import job  # noqa: E402
+from blame import IN_A_ROW, Blame  # noqa: E402
 from fake_engine import FakeEngine, Worker  # noqa: E402
 from parts import Parts  # noqa: E402
 from progress import Progress  # noqa: E402
@@ -93,6 +95,22 @@ class Tries(Case):
         self.assertIn("a: failed several tasks in a row", self.out.getvalue())
         self.assertLessEqual(len(self.engine.all["a"].begun), 5)  # 3, and what waited for it
 
+    def test_if_all_workers_fail_all_are_used(self):
+        blame = Blame()
+        for _ in range(IN_A_ROW):
+            blame.failed("a")
+        self.assertEqual(blame.usable({"a": 1, "b": 2}), {"b": 2})
+        self.assertEqual(blame.usable({"a": 1}), {"a": 1})
+        blame.succeeded("a")
+        self.assertEqual(blame.usable({"a": 1, "b": 2}), {"a": 1, "b": 2})
+
+    def test_a_returned_part_is_whole_or_not_there(self):
+        driver = self.driver({"a": Worker()}, write=lambda task: b"content", return_parts=True)
+        with mock.patch("os.fsync", side_effect=OSError(28, "No space left on device")):
+            with self.assertRaisesRegex(job.JobError, "No space left on device"):
+                self.render(driver)
+        self.assertEqual([path.name for path in driver.parts.folder.iterdir() if "batches" in path.name], [])
+
     def test_a_part_that_is_not_visible_here_is_a_failure(self):
         driver = self.driver({"a": Worker()}, write=lambda task: None)
         with self.assertRaisesRegex(job.JobError, "--return-parts"):
@@ -120,6 +138,7 @@ class Losses(Case):
         driver = self.driver({"a": Worker(), "b": Worker(stopped=True), "c": Worker()})
         self.render(driver)
         self.assertEqual(driver.counts.copies, 1)
+        self.assertEqual(self.engine.allowed[-1], {"a", "c"})
         self.assertTrue(self.engine.cancelled)
         self.assertLess(self.engine.time, 60)
 

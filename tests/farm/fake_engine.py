@@ -21,7 +21,7 @@ class FakeEngine:
         self.all, self.write, self.time = workers, write, 0.0
         self.numbers = itertools.count()
         self.running = {}  # attempt: (worker, end, task)
-        self.queue, self.ended, self.cancelled = [], [], []
+        self.queue, self.ended, self.cancelled, self.allowed = [], [], [], []
         self.break_at, self.broken_for, self.lost = None, 0, False
 
     def clock(self):
@@ -44,6 +44,7 @@ class FakeEngine:
 
     def submit(self, task, allowed):
         number = next(self.numbers)
+        self.allowed.append(allowed)
         self.queue.append((number, task, allowed))
         self._start()
         return number
@@ -67,6 +68,8 @@ class FakeEngine:
             self.break_at, self.lost = None, True
             raise EngineLost("the scheduler is lost")
         self.time += seconds
+        if self.time > 5000:
+            raise AssertionError("the driver comes to no end")
         events = []
         for number, (name, end, task) in sorted(self.running.items(), key=lambda item: item[1][1]):
             if end > self.time or name not in self.all:

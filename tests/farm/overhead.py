@@ -1,6 +1,8 @@
 """What a task costs besides its render, and two workers against one."""
 
 import json
+import os
+import resource
 import statistics
 import subprocess
 import time
@@ -17,55 +19,55 @@ MERGED = (480, 270)  # pixels
 
 
 def measure(program, folder, out):
-    measured = {"machine": described(), "command": "./run farmfaults --overhead"}
-    measured["program_seconds"] = _program(program, folder)
+    measured = {"machine": described(), "command": "./run farmfaults --overhead", "load_before": os.getloadavg()[0]}
+    measured |= _program(program, folder)
+    measured |= _merge(program, folder)
     for workers in (1, 2):
         measured[f"tiny_tasks_{workers}"] = _farm(folder, workers, TINY_TASKS, 1, TINY, f"tiny{workers}")
     for workers in (1, 2):
-        measured[f"large_tasks_{workers}"] = _farm(folder, workers, 16 * LARGE_BATCHES, LARGE_BATCHES, LARGE, f"large{workers}")
+        measured[f"large_tasks_{workers}"] = _farm(folder, workers, 12 * LARGE_BATCHES, LARGE_BATCHES, LARGE, f"large{workers}")
     one, two = measured["tiny_tasks_1"], measured["tiny_tasks_2"]
-    # At one worker a task costs the program's own start, the worker's and the driver's; at two what is serial shows.
-    measured["overhead_seconds_per_task"] = one["seconds"] / one["tasks"] - measured["program_seconds"]
-    measured["serial_seconds_per_task"] = one["driver_and_scheduler_cpu_seconds"] / one["tasks"]
-    large = measured["large_tasks_1"]
-    measured["seconds_per_sample"] = large["seconds"] / (large["tasks"] * LARGE_BATCHES * 4 * 64 * 64)
-    measured |= _merge(program, folder)
-    measured["tiny_speedup_2"] = one["seconds"] / two["seconds"]
-    measured["speedup_2"] = measured["large_tasks_1"]["seconds"] / measured["large_tasks_2"]["seconds"]
+    large = [measured[f"large_tasks_{workers}"] for workers in (1, 2)]
+    measured["overhead_seconds_per_task"] = one["seconds"] / one["tasks"]
+    measured["serial_seconds_per_task"] = one["driver_and_scheduler_cpu_seconds"] / TINY_TASKS
+    measured["tiny_speedup_2"] = one["seconds"] / one["tasks"] / (two["seconds"] / two["tasks"])
+    measured["speedup_2"] = large[0]["seconds"] / large[0]["tasks"] / (large[1]["seconds"] / large[1]["tasks"])
     out.write_text(json.dumps(measured, indent=1) + "\n")
     print(json.dumps(measured, indent=1))
     return 0
 
 
+def _run(*command):
+    """Processor seconds of the program: other programs on the machine do not count."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(list(map(str, command)), check=True, stdout=subprocess.DEVNULL)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
 def _program(program, folder):
-    """Seconds of a tiny render and of --version, which a task also runs: the median of 20."""
-    taken = []
+    """Seconds of a tiny render and of --version, which a task also runs (medians of 20), and what a sample costs."""
+    taken, render = [], [program, "render", SCENE, "--batch", "4", "-q", "-o", folder / "tiny.exr", "--batches"]
     for _ in range(20):
         begin = time.monotonic()
-        subprocess.run([program, "--version"], stdout=subprocess.DEVNULL, check=True)
-        command = [program, "render", SCENE, "--batches", "0..1", "--batch", "4", "-q", "-o", folder / "tiny.exr", *TINY]
-        subprocess.run(list(map(str, command)), check=True, stdout=subprocess.DEVNULL)
+        _run(program, "--version")
+        _run(*render, "0..1", *TINY)
         taken.append(time.monotonic() - begin)
-    return statistics.median(taken)
+    large = statistics.median(_run(*render, f"0..{LARGE_BATCHES}", *LARGE) for _ in range(3))
+    return {"program_seconds": statistics.median(taken), "seconds_per_sample": large / (LARGE_BATCHES * 4 * 64 * 64)}
 
 
 def _merge(program, folder):
     """What the merge costs for each part: 16 parts against 2."""
     width, height = MERGED
-    parts, taken = [], {}
-    for number in range(16):
-        parts.append(folder / f"merge{number}.exr")
-        command = [program, "render", SCENE, "--batches", f"{number}..{number + 1}", "--batch", "1", "-q", "-o", parts[-1],
-                   "--size", f"{width}x{height}", "--max-edges", "3"]  # fmt: skip
-        subprocess.run(list(map(str, command)), check=True, stdout=subprocess.DEVNULL)
-    for count in (2, 16):
-        begin = time.monotonic()
-        command = [program, "merge", *parts[:count], "-q", "-o", folder / "merged.exr"]
-        subprocess.run(list(map(str, command)), check=True, stdout=subprocess.DEVNULL)
-        taken[count] = time.monotonic() - begin
+    parts = [folder / f"merge{number}.exr" for number in range(16)]
+    for number, part in enumerate(parts):
+        _run(program, "render", SCENE, "--batches", f"{number}..{number + 1}", "--batch", "1", "-q", "-o", part,
+             "--size", f"{width}x{height}", "--max-edges", "3")  # fmt: skip
+    few, many = (_run(program, "merge", *parts[:count], "-q", "-o", folder / "merged.exr") for count in (2, 16))
     pixels = width * height
     return {
-        "merge_seconds_per_part_and_megapixel": (taken[16] - taken[2]) / 14 / (pixels / 1e6),
+        "merge_seconds_per_part_and_megapixel": (many - few) / 14 / (pixels / 1e6),
         "part_bytes_per_pixel": parts[3].stat().st_size / pixels,
     }
 

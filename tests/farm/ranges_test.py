@@ -57,10 +57,10 @@ class Sizes(unittest.TestCase):
 
     def test_a_task_takes_about_the_time_wanted(self):
         speed = Speed(task_seconds=60)
-        speed.add(1, 2.0)
-        self.assertEqual(speed.batches(100000, 4), 16)  # 30 would take 60 s, but from one batch it grows by 16 at most
-        speed.add(16, 16.0)
-        self.assertEqual(speed.batches(100000, 4), 32)  # of 1 s each: the start was in the first task
+        speed.add(1, 1.5)
+        self.assertEqual(speed.batches(100000, 4), 16)  # 40 would take 60 s, but from one batch it grows by 16 at most
+        speed.add(16, 8.0)
+        self.assertEqual(speed.batches(100000, 4), 64)  # of 0.5 s each: the program's start was in the first task
 
     def test_the_last_tasks_are_smaller_but_not_tiny(self):
         speed = Speed(task_seconds=64)
