@@ -11,6 +11,7 @@ import shlex
 import sys
 import threading
 import time
+import warnings
 
 os.environ.setdefault("DASK_CONFIG", str(pathlib.Path(__file__).parent / "dask.yaml"))  # read by the import of dask
 
@@ -30,6 +31,7 @@ cloudpickle.register_pickle_by_value(task_module)
 cloudpickle.register_pickle_by_value(sys.modules[__name__])
 
 # What goes wrong is an event or an error here, in one line.
+warnings.filterwarnings("ignore", module="distributed")
 for name in list(logging.root.manager.loggerDict):
     if name.partition(".")[0] in ("distributed", "tornado", "asyncio"):
         logging.getLogger(name).setLevel(logging.CRITICAL + 1)
@@ -159,7 +161,7 @@ def _one_line(error):
 def local(workers):
     """Makes a cluster of processes of this machine."""
     return lambda: distributed.LocalCluster(
-        n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None, memory_limit=0,
+        n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=":0", memory_limit=0,
         silence_logs=logging.CRITICAL,
     )  # fmt: skip
 
@@ -185,7 +187,7 @@ def batch_system(kind, jobs, cores, memory, walltime, queue_name, account, direc
         cluster = getattr(dask_jobqueue, class_name)(
             cores=1, processes=1, memory=memory, walltime=walltime, queue=queue_name, job_extra_directives=directives,
             job_script_prologue=[f"export DASK_CONFIG={shlex.quote(os.environ['DASK_CONFIG'])}"],
-            scheduler_options={"dashboard_address": None}, **{account_word: account}, **processors(cores, memory),
+            scheduler_options={"dashboard_address": ":0"}, **{account_word: account}, **processors(cores, memory),
         )  # fmt: skip
         cluster.scale(jobs=jobs)
         return cluster

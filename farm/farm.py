@@ -11,7 +11,7 @@ import time
 import whole
 from connection import EngineLost
 from driver import Driver
-from job import Job, JobError
+from job import Job, JobError, is_finished
 from parts import Parts
 from progress import Progress
 from ranges import floor_power
@@ -24,7 +24,7 @@ OK, USAGE, INTERRUPTED = 0, 2, 130
 def parser():
     made = argparse.ArgumentParser(
         prog="./run farm",
-        usage="./run farm SCENE --samples N [-o WHOLE.exr] [option...] [-- option of plumbline render or golden...]",
+        usage="./run farm SCENE --samples N [option...] [-- option of plumbline render or golden...]",
         description="Renders one picture on many workers. The result has the bits of a render by one machine.",
         epilog="Example: ./run farm scenes/cornell_glass.dae --samples 16384 --workers 8 -- --integrator bdpt --size 1920x1080",
     )
@@ -128,7 +128,7 @@ def farm(arguments, options, make_engine=dask_engine, out=None):
     out = out or sys.stderr
     job = job_of(arguments, options)
     job.check()
-    if job.golden and arguments.output[0].exists():
+    if job.golden and is_finished(job, arguments.output[0]):
         print(f"{arguments.output[0]}: is there", file=out)
         return
     for path in arguments.output:

@@ -112,6 +112,16 @@ class Job:
             raise JobError(said[-1] if said else f"plumbline merge ended with status {answer.returncode}")
 
 
+def is_finished(job, path):
+    """Whether a golden that is there is finished. Raises JobError if it is one that `plumbline golden` goes on with."""
+    if not path.exists():
+        return False
+    answer = subprocess.run([job.program, "merge", "--check", path], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    if answer.returncode == 0:
+        raise JobError(f"{path}: is not finished: remove it, or let plumbline golden go on with it")
+    return True
+
+
 def same_identity(file, identity):
     """Writes the identity into a new file; the names of what differs from an old one."""
     if not file.is_file():

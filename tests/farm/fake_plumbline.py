@@ -97,7 +97,10 @@ def check(names):
     status = 0
     for name in names:
         try:
-            there = batches(read(name)[1])
+            head, lines = read(name)
+            if head.startswith("finished"):
+                raise ValueError("holds no state to go on from")
+            there = batches(lines)
             print(f"{name}: batches {there[0]}..{there[-1] + 1}")
         except (OSError, ValueError) as error:
             print(f"{name}: damaged: {error}")

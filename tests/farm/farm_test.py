@@ -127,6 +127,10 @@ class Command(unittest.TestCase):
         self.assertEqual(names, ["batches_00000000-00000008.exr", "batches_00000008-00000016.exr"])
         self.assertTrue(self.whole.read_text().startswith("finished golden"))
         self.assertEqual(self.farm(*golden), (0, f"{self.whole}: is there\n"))
+        self.whole.write_bytes(next(self.parts.glob("batches_*")).read_bytes())
+        status, said = self.farm(*golden)
+        self.assertEqual(status, 2)
+        self.assertRegex(said, f"^farm: {self.whole}: is not finished: .*\n$")
 
     def test_ctrl_c_and_a_second_start(self):
         status, said = self.farm("--task-batches", "2", engine=Inline(stop_after=3))

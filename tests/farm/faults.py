@@ -164,8 +164,8 @@ def ended(driver, site):
 
 def parser():
     made = argparse.ArgumentParser(prog="./run farmfaults", description=__doc__.partition("\n")[0])
-    made.add_argument("fault", nargs="*", choices=[*FAULTS, []], help=f"default: all ({', '.join(FAULTS)})")
-    made.add_argument("--samples", type=int, default=512, help="samples per pixel, a multiple of 16 (512)")
+    made.add_argument("fault", nargs="*", metavar="FAULT", help=f"{', '.join(FAULTS)} (default: all)")
+    made.add_argument("--samples", type=int, default=1024, help="samples per pixel, a multiple of 16 (1024)")
     made.add_argument("--overhead", action="store_true", help="measure overhead and two workers against one into JSON instead")
     made.add_argument("-o", "--out", type=pathlib.Path, help="the table (out/farm/faults.md; with --overhead out/farm/overhead.json)")
     return made
@@ -173,6 +173,10 @@ def parser():
 
 def main(argv):
     arguments = parser().parse_args(argv)
+    if unknown := set(arguments.fault) - FAULTS.keys():
+        parser().error(f"there is no fault {', '.join(sorted(unknown))} (there are {', '.join(FAULTS)})")
+    if arguments.samples < 128 or arguments.samples % 16:
+        parser().error("--samples: a multiple of 16, at least 128")
     program = os.environ.get("PLUMBLINE") or str(ROOT / "build/release/plumbline")
     folder = ROOT / "out/farm/faults"
     shutil.rmtree(folder, ignore_errors=True)
