@@ -133,7 +133,8 @@ class Driver:
         attempt = self.flight.pop(event.attempt, None)
         if attempt is None:
             return
-        {"done": self._done, "error": self._error, "foreign": self._foreign, "lost": self._lost}[event.answer["kind"]](attempt, event)
+        react = {"done": self._done, "error": self._error, "foreign": self._foreign, "lost": self._lost}
+        react[event.answer["kind"]](attempt, event)
 
     def _done(self, attempt, event):
         if (content := event.answer.get("bytes")) is not None:

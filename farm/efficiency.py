@@ -2,13 +2,14 @@
 
     efficiency.py [out/farm/overhead.json] [--pixels 1920x1080] [--samples 16384] [--batch 4] [--seconds-per-sample S]
 
-A job has B batches of b seconds of one worker. A task of M batches takes T = M b, and costs o more at its worker (the start of the program,
-and the worker's Python) and s at the driver and the scheduler, which serve one task after the other. n = B / M tasks at N workers take
+A job has B batches of b seconds of one worker. A task of M batches takes T = M b, and costs o more at its worker (the start of the
+program, and the worker's Python) and s at the driver and the scheduler, which serve one task after the other. n = B / M tasks at N
+workers take
 
     max(n (T + o) / N + (T' + o) / 2,  T + o,  n s)  +  n m
 
-The last tasks are smaller (speed.py): of T' = max(T / 8, b). At the end a worker waits for half of one on average. m is what the merge
-needs for a part; it is one process, after the last task. The efficiency is B b / N divided by this time.
+The last tasks are smaller (speed.py): of T' = max(T / 8, b). At the end a worker waits for half of one on average. m is what the
+merge needs for a part; it is one process, after the last task. The efficiency is B b / N divided by this time.
 """
 
 import argparse
@@ -35,7 +36,8 @@ def seconds(batches, workers, size, costs):
     tasks = math.ceil(batches / size)
     task = size * costs.batch
     last = max(task / 8, costs.batch) if size > 1 else task
-    rendered = max(tasks * (task + costs.overhead) / workers + (last + costs.overhead) / 2, task + costs.overhead, tasks * costs.serial)
+    shared = tasks * (task + costs.overhead) / workers + (last + costs.overhead) / 2
+    rendered = max(shared, task + costs.overhead, tasks * costs.serial)
     return rendered + tasks * costs.merge
 
 
@@ -80,7 +82,8 @@ def main():
     batches = arguments.samples // arguments.batch
     work = batches * costs.batch
     print(f"{pixels * arguments.samples:.2g} samples of {1e6 * sample:.1f} us: {work / 3600:.1f} hours of one worker.")
-    print(f"{batches} batches of b = {costs.batch:.1f} s; o = {costs.overhead:.3f} s, s = {1e3 * costs.serial:.1f} ms, m = {costs.merge:.2f} s.")
+    print(f"{batches} batches of b = {costs.batch:.1f} s.")
+    print(f"o = {costs.overhead:.3f} s, s = {1e3 * costs.serial:.1f} ms, m = {costs.merge:.2f} s.")
     print(f"A part has {measured['part_bytes_per_pixel'] * pixels / 1e6:.0f} MB.\n")
     print(table(batches, costs))
     print("\nWithout the merge:\n")

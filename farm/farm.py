@@ -46,7 +46,7 @@ def parser():
     made.add_argument("--account", metavar="A", help="of the jobs")
     made.add_argument("--directive", action="append", default=[], metavar="D", help="a further line of the jobs, may be repeated")
     size = made.add_mutually_exclusive_group()
-    size.add_argument("--task-seconds", type=seconds, default=60.0, metavar="T", help="what a task should take (60)")
+    size.add_argument("--task-seconds", type=seconds, default=60.0, metavar="T", help="what a task should take, at least (60); in long jobs longer")
     size.add_argument("--task-batches", type=power_of_two, metavar="M", help="batches of a task, a power of two")
     made.add_argument("--parts", type=pathlib.Path, metavar="FOLDER", help="shared folder of the parts (beside the output)")
     made.add_argument("--return-parts", action="store_true", help="no shared folder: parts come back through the scheduler")
@@ -94,7 +94,9 @@ def parse(argv):
 
 def job_of(arguments, options):
     program = os.environ.get("PLUMBLINE") or str(ROOT / "build/release/plumbline")
-    local = not (arguments.scheduler or arguments.system)
+    threads = arguments.cores if arguments.system else None
+    if not (arguments.scheduler or arguments.system):  # the workers share this machine
+        threads = max(1, len(os.sched_getaffinity(0)) // arguments.workers)
     return Job(
         program=str(pathlib.Path(program).resolve()) if "/" in program else program,
         scene=arguments.scene,
@@ -103,7 +105,7 @@ def job_of(arguments, options):
         golden=arguments.golden,
         pilot=arguments.pilot or 32,
         options=options,
-        threads=max(1, len(os.sched_getaffinity(0)) // arguments.workers) if local else arguments.cores if arguments.system else None,
+        threads=threads,
         program_there=arguments.program or "",
     )
 
@@ -146,7 +148,7 @@ def _make(arguments, job, parts, make_engine, out):
     before = whole.rendered_before(parts, job, progress)
     progress = Progress(before, job.batches.size, out, arguments.quiet)
     begin = time.monotonic()
-    speed = Speed(arguments.task_seconds, arguments.task_batches)
+    speed = Speed(arguments.task_seconds, arguments.task_batches, job.batches.size)
     driver = Driver(lambda: make_engine(arguments), job, parts, speed, progress, arguments.return_parts, arguments.patience)
     try:
         whole.make(driver, arguments.output)

@@ -29,7 +29,9 @@ class Flight(dict):
         found = []
         for name, attempt in self.items():
             expected = speed.expected(attempt.batches.size)
-            if expected is not None and now - attempt.begin >= max(SLOW * expected, SLOW_SECONDS) and len(self.of(attempt.batches)) == 1:
+            if expected is None or len(self.of(attempt.batches)) > 1:
+                continue
+            if now - attempt.begin >= max(SLOW * expected, SLOW_SECONDS):
                 found.append((name, attempt))
         return found
 

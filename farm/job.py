@@ -92,11 +92,15 @@ class Job:
                 files["PILOT"] = pilot
         if self.threads and not any(word.startswith(("-t", "--threads")) for word in self.options):
             arguments += ["-t", str(self.threads)]
+        if part:
+            files = {word: str(path.resolve()) for word, path in files.items()}
+        else:
+            files = {word: (path.name, zlib.compress(path.read_bytes())) for word, path in files.items()}
         return {
             "program": self.program_there or self.program,
             "version": self.version,
             "arguments": arguments,
-            "files": {word: str(path.resolve()) if part else (path.name, zlib.compress(path.read_bytes())) for word, path in files.items()},
+            "files": files,
             "part": str(part.resolve()) if part else None,
         }
 

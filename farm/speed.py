@@ -5,13 +5,15 @@ import statistics
 from ranges import floor_power
 
 REMEMBERED = 101  # tasks
+TASKS_PER_WORKER = 16  # about; more make more parts, which the merge must read, and each has the size of the picture
 
 
 class Speed:
-    """`task_seconds`: what a task should take. `task_batches`: a fixed size in its place, a power of two."""
+    """`task_seconds`: what a task should take, at least. `task_batches`: a fixed size in its place, a power of two. `all_batches`: of
+    the job; in a long one, tasks are longer."""
 
-    def __init__(self, task_seconds=60.0, task_batches=None):
-        self.task_seconds, self.task_batches = task_seconds, task_batches
+    def __init__(self, task_seconds=60.0, task_batches=None, all_batches=0):
+        self.task_seconds, self.task_batches, self.all_batches = task_seconds, task_batches, all_batches
         self._largest, self._costs = 0, []  # seconds per batch, of tasks of about the largest size
 
     def add(self, batches, seconds):
@@ -38,7 +40,7 @@ class Speed:
             return self.task_batches
         if not self._costs:
             return 1
-        wanted = self.task_seconds / self.seconds_per_batch
+        wanted = max(self.task_seconds / self.seconds_per_batch, self.all_batches / (TASKS_PER_WORKER * max(slots, 1)))
         wanted = min(wanted, max(wanted / 8, remaining / (2 * max(slots, 1))))
         # A first task of one batch may have measured little more than a start: grow by at most 16 times at once.
         return floor_power(max(1, min(wanted, 16 * self._largest)))

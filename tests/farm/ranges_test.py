@@ -67,6 +67,12 @@ class Sizes(unittest.TestCase):
         speed.add(64, 64.0)
         self.assertEqual([speed.batches(remaining, 4) for remaining in (10000, 256, 64, 1)], [64, 32, 8, 8])
 
+    def test_a_long_job_has_about_sixteen_tasks_for_each_worker(self):
+        speed = Speed(task_seconds=60, all_batches=4096)
+        speed.add(16, 16 * 66.0)
+        self.assertEqual(speed.batches(4096, 10), 16)  # and not 1 batch: 4,096 parts
+        self.assertEqual(speed.batches(4096, 1000), 1)
+
     def test_one_slow_task_does_not_count(self):
         speed = Speed(task_seconds=8)
         for seconds in (1.0, 1.0, 500.0):
