@@ -3,14 +3,13 @@
 The engine (engine.py; in tests a fake one) has these functions. Each may raise EngineLost.
   workers()             {worker: tasks that it runs at once}
   submit(task, allowed) begins a task on one of the workers `allowed`; the name of this attempt
-  wait(seconds)         what has ended: [Event], after at most `seconds`
-  where(attempt)        the worker that has it, or None
+  wait(seconds)         what has ended: [Event] (flight.py), after at most `seconds`
+  where(attempt)        the worker that has it, or None if none has or its answer is on its way
   cancel(attempts)      their ends are of no interest any more
   connect()             after EngineLost
 """
 
 import time
-from typing import NamedTuple
 
 from blame import Blame
 from connection import EngineLost, connect
@@ -21,14 +20,6 @@ from tries import Counts, Tries
 
 TURN = 0.5  # seconds that a turn of the loop waits
 SHARED_FOLDER_SECONDS = 5  # until a part that another machine wrote must be visible here
-
-
-class Event(NamedTuple):
-    """The end of an attempt. `answer`: as task.py; or {"kind": "lost", "message": why}."""
-
-    attempt: object
-    worker: str | None
-    answer: dict
 
 
 class Driver:
@@ -116,11 +107,13 @@ class Driver:
             if self.parts.path(attempt.batches).exists():  # its worker has stopped before it could say so
                 self._forget([name])
                 self.progress.rendered(attempt.batches.size)
-            elif len(self.flight) < sum(usable.values()) and (where := self.engine.where(name)):
+            elif len(self.flight) < sum(usable.values()):
+                where = self.engine.where(name)
                 allowed = frozenset(usable) - {where} - self._tries.failed_at(attempt.batches)
                 if allowed:
+                    place = f"at {where}" if where else "and on its way"
                     seconds = self.clock() - attempt.begin
-                    self.progress.say(f"batches {attempt.batches}: {seconds:.0f} s at {where}; a second copy begins elsewhere")
+                    self.progress.say(f"batches {attempt.batches}: {seconds:.0f} s {place}; a second copy begins")
                     self.counts.copies += 1
                     self._begin(attempt.batches, allowed)
 

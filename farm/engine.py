@@ -20,7 +20,7 @@ import distributed  # noqa: E402
 
 import task as task_module  # noqa: E402
 from connection import EngineLost  # noqa: E402
-from driver import Event  # noqa: E402
+from flight import Event  # noqa: E402
 from job import JobError  # noqa: E402
 
 FETCHERS = 4  # threads that wait for results

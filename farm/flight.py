@@ -1,6 +1,7 @@
 """The attempts that run: which are late, and which have no worker any more."""
 
 import dataclasses
+from typing import NamedTuple
 
 from ranges import Range
 
@@ -15,6 +16,14 @@ class Attempt:
     batches: Range
     allowed: frozenset
     begin: float
+
+
+class Event(NamedTuple):
+    """The end of an attempt. `answer`: as task.py; or {"kind": "lost", "message": why}."""
+
+    attempt: object
+    worker: str | None
+    answer: dict
 
 
 class Flight(dict):

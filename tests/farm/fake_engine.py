@@ -3,7 +3,7 @@
 import itertools
 
 from connection import EngineLost
-from driver import Event
+from flight import Event
 
 
 class Worker:

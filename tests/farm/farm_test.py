@@ -15,7 +15,7 @@ sys.path.insert(0, str(HERE.parents[1] / "farm"))
 import farm  # noqa: E402
 import fake_plumbline  # noqa: E402
 import task as task_module  # noqa: E402
-from driver import Event  # noqa: E402
+from flight import Event  # noqa: E402
 
 
 class Inline:
