@@ -9,7 +9,7 @@ workers take
     max(n (T + o) / N + (T' + o) / 2,  T + o,  n s)  +  n m
 
 The last tasks are smaller (speed.py): of T' = max(T / 8, b). At the end a worker waits for half of one on average. m is what the
-merge needs for a part; it is one process, after the last task. The efficiency is B b / N divided by this time.
+merge needs for a part, on one processor, after the last task. The efficiency is B b / N divided by this time.
 """
 
 import argparse

@@ -1,5 +1,6 @@
 """All of a job: its phases, the merge, and the parts that turn out to be damaged."""
 
+import merge
 from job import JobError
 from ranges import Range
 
@@ -28,7 +29,8 @@ def merged(driver, whole, outputs, samples, finish=False):
     """Joins the parts of `whole`. Damaged ones are rendered again first, twice at most."""
     for attempt in range(DAMAGES + 1):
         try:
-            return driver.job.merge(driver.parts.folder, list(driver.parts.names(whole).values()), outputs, samples, finish)
+            names = list(driver.parts.names(whole).values())
+            return merge.merge(driver.job, driver.parts.folder, names, outputs, samples, finish)
         except JobError:
             damaged = driver.parts.remove_damaged(whole)
             if not damaged or attempt == DAMAGES:

@@ -87,9 +87,10 @@ def merge(words):
         fail("foreign parts")
     all_lines.sort(key=lambda line: int(line.split()[1]))
     there = batches(all_lines)
+    first = 0 if samples else there[0]
     end = int(samples) // int(head.split()[2]) if samples else there[-1] + 1
-    if there != list(range(end)):
-        fail(f"the parts have not exactly the batches 0..{end}")
+    if there != list(range(first, end)):
+        fail(f"the parts have not exactly the batches {first}..{end}")
     write(out, f"finished {head}" if finish else head, all_lines)
 
 

@@ -76,6 +76,26 @@ def program_here(command, final):
     return answer.returncode, answer.stderr.decode()
 
 
+class OneByOne:
+    """In place of threads: the program in this process knows of one folder at a time."""
+
+    groups = [1]
+
+    def __init__(self, threads):
+        pass
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def map(self, function, *lists):
+        made = [function(*items) for items in zip(*lists)]
+        self.groups.append(len(made))
+        return made
+
+
 class Command(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -114,6 +134,15 @@ class Command(unittest.TestCase):
         self.assertEqual(self.whole.read_bytes(), self.single())
         self.assertTrue(self.engine.closed)
         self.assertRegex(said, r"whole.exr: \d+ tasks; \d+ s\n$")
+
+    def test_many_parts_are_merged_in_groups(self):
+        for processors in (1, 2, 3):
+            self.whole.unlink(missing_ok=True)
+            with mock.patch("merge.processors", lambda: processors), mock.patch("merge.concurrent.futures.ThreadPoolExecutor", OneByOne):
+                status, said = self.farm("--task-batches", "1", samples=200)
+            self.assertEqual((status, self.whole.read_bytes()), (0, self.single(end=50)), said)
+            self.assertEqual(OneByOne.groups.pop(), {1: 1, 2: 2, 3: 3}[processors])
+        self.assertEqual(list(self.parts.glob(".*tmp*")), [])
 
     def test_parts_that_come_back(self):
         status, said = self.farm("--return-parts", "--task-batches", "4")
