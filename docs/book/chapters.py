@@ -8,7 +8,7 @@ PARTS = [
     ("Trees", ["trees.md", "tree-by-hand.md"]),
     ("The fast path", ["cuda-trees.md", "cuda-bdpt.md", "stages.md", "gpu.md"]),
     ("Is it right?", ["comparison.md", "own-code.md", "export.md", "extremes.md", "mutants.md", "bugs.md"]),
-    ("How fast is it?", ["trade.md", "peers.md"]),
+    ("How fast is it?", ["trade.md", "peers.md", "farm.md"]),
     ("Your turn", ["exercises.md", "extending.md"]),
 ]
 
