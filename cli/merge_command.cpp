@@ -23,7 +23,8 @@ ExitStatus check_parts(const MergeCommand& options)
 {
     bool sound = true;
     for (const std::string& file : options.parts) try {
-            std::cout << file << ": batches " << describe(images::read_part(file).range) << '\n';
+            const std::string holds = describe(images::read_part(file).range);
+            std::cout << file << ": batches " << holds << '\n';
         } catch (const images::ImageError& error) {
             std::cout << error.what() << '\n';
             sound = false;

@@ -81,18 +81,19 @@ Axis samples_axis()
         {"float, compensated sum", Format::binary32, run_mean<KahanMean>},
         {"double, sum", Format::binary64, run_mean<NaiveMean<double>>},
     };
-    // The film: a join m_a + (m_b - m_a) share rounds by at most u (|m| + 3 |m_b - m_a|), and averages the
-    // errors of its halves; a batch takes part in at most 2 log2(n / 4) joins of batches of 4. |x| <= 1, and
-    // the mean is about 1/2 (at least 1/4 from 64 samples on, but for a chance of 1e-13): relative to it,
-    // 13 u in each join. A batch of four adds 5 roundings of its format.
+    // The film: a join m_a + (m_b - m_a) share rounds by at most u (|m| + 3 |m_b - m_a|), and averages
+    // the errors of its halves; a batch takes part in at most 2 log2(n / 4) joins of batches of 4. |x|
+    // <= 1, and the mean is about 1/2 (at least 1/4 from 64 samples on, but for a chance of 1e-13):
+    // relative to it, 13 u in each join. A batch of four adds 5 roundings of its format.
     const auto film_bound = [](double n) {
         return u64 * (13 * 2 * std::log2(std::max(2.0, n / samples_of_batch)) + 5);
     };
     constexpr double tested = 0x1p22;
-    const std::string because =
-        "the film joins batches in pairs, in double: its error grows with the logarithm of their number; "
-        "2^32 samples are the most that are walked, and by this bound no number of samples that a counter "
-        "of 64 bits holds has an error above 2e-13";
+    const std::string because = "the film joins batches in pairs, in double: its error grows with the "
+                                "logarithm of their number; "
+                                "2^32 samples are the most that are walked, and by this bound no number "
+                                "of samples that a counter "
+                                "of 64 bits holds has an error above 2e-13";
     axis.limits = {
         {"ref", 0x1p32, film_bound, no_failure, Failure::inaccurate, because, tested},
         {"host", 0x1p32, [=](double n) { return film_bound(n) + 5 * u32; }, no_failure,
@@ -105,11 +106,12 @@ Axis samples_axis()
         {"host, deterministic", 0x1p32, [](double) { return 12 * u64; }, no_failure, Failure::inaccurate,
          "the sum of floats is exact, up to 2^32 terms (beyond: axis equal-samples)", tested},
     };
-    axis.derivation = "a join of two blocks of the film, of means $m_a$ and $m_b$, rounds the mean by less "
-                      "than $u (m + 3 |m_b - m_a|)$ and averages the errors of its halves. A batch takes "
-                      "part in at most $2 \\log_2 B$ joins of $B$ batches: in all $26 u \\log_2 B$ of the "
-                      "mean for samples up to 1 and a mean above 1/4. A plain sum of $n$ floats is within "
-                      "$n u$. The deterministic sum has no rounding.";
+    axis.derivation =
+        "a join of two blocks of the film, of means $m_a$ and $m_b$, rounds the mean by less "
+        "than $u (m + 3 |m_b - m_a|)$ and averages the errors of its halves. A batch takes "
+        "part in at most $2 \\log_2 B$ joins of $B$ batches: in all $26 u \\log_2 B$ of the "
+        "mean for samples up to 1 and a mean above 1/4. A plain sum of $n$ floats is within "
+        "$n u$. The deterministic sum has no rounding.";
     return axis;
 }
 
