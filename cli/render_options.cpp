@@ -28,7 +28,7 @@ const std::map<std::string, images::Heuristic> heuristics = {{"balance", images:
                                                              {"power", images::Heuristic::power},
                                                              {"uniform", images::Heuristic::uniform}};
 
-constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
+constexpr std::uint64_t most_samples_per_pixel = std::uint64_t{1} << 31;
 
 /// Each is a picture in memory and in the file.
 constexpr std::uint64_t most_batches_kept = 1024;
@@ -58,7 +58,7 @@ void add_picture_options(CLI::App& command, RenderCommand& options)
     command
         .add_option("-s,--samples", options.samples,
                     "Samples per pixel, those of an earlier render included")
-        ->check(CLI::Range(std::uint64_t{1}, most_samples).description(""))
+        ->check(CLI::Range(std::uint64_t{1}, most_samples_per_pixel).description(""))
         ->capture_default_str();
     command
         .add_option("--batch", options.batch_size,
@@ -195,9 +195,9 @@ std::string expect_batches(const std::string& text)
 images::BatchRange parse_batches(const std::string& text, std::uint32_t batch_size)
 {
     const auto range = images::parse_range(text);
-    if (!range || range->end > most_samples / batch_size)
+    if (!range || range->end > most_samples_per_pixel / batch_size)
         throw std::invalid_argument("--batches " + text + ": beyond the last batch, " +
-                                    std::to_string(most_samples / batch_size - 1));
+                                    std::to_string(most_samples_per_pixel / batch_size - 1));
     return *range;
 }
 
