@@ -137,15 +137,23 @@ ExitStatus judge_walk(const std::vector<WalkedAxis>& walked)
     return wrong.empty() ? fine : check_failed;
 }
 
-/// Shows earlier results, of those of the chosen axes that they have. Origin and number of cases are
-/// those of the first file, and must be the same in the others.
+/// Shows earlier results, of those of the chosen axes that they have. Seed and number of cases are those
+/// of the first file, and must be the same in the others. Axes may be measured by different versions of
+/// the program: all are named.
 ExitStatus show_earlier_walk(const ExtremesCommand& options, std::vector<WalkedAxis> walked)
 {
     std::optional<extremes::Description> description;
     for (const std::string& file : options.from)
         show_from(file, [&](const extremes::Json& json) {
-            if (!description) description = extremes::description_of(json);
-            extremes::restore(json, *description, walked, true);
+            extremes::Description own = extremes::description_of(json);
+            const std::string program = own.program;
+            own.cases = description ? description->cases : own.cases;
+            own.seed = description ? description->seed : own.seed;
+            extremes::restore(json, own, walked, true);
+            if (!description)
+                description = own;
+            else if (description->program.find(program) == std::string::npos)
+                description->program += ", " + program;
         });
     for (WalkedAxis& axis : walked)
         std::erase_if(axis.methods, [](const WalkedAxis::Of& of) { return of.points.empty(); });

@@ -93,6 +93,18 @@ TEST(ExtremesCommand, ShowsEarlierResultsWithoutAWalk)
     for (const char* name : {"(`gap`)", "(`ior`)"})
         EXPECT_NE(both.out.find(name), std::string::npos) << both.out;
 
+    kept["program"] = "0.0.1";
+    write_bytes(json, kept.dump());
+    const Outcome versions = run({"extremes", "--from", ior, json, "--json"});
+    EXPECT_EQ(nlohmann::json::parse(versions.out).at("program"),
+              std::string(nlohmann::json::parse(read_bytes(ior)).at("program")) + ", 0.0.1");
+    kept["cases"] = 4;
+    write_bytes(json, kept.dump());
+    EXPECT_NE(run({"extremes", "--from", ior, json}).err.find("its cases is 4, and not 3"),
+              std::string::npos);
+    kept["cases"] = 3;
+    write_bytes(json, kept.dump());
+
     const Outcome other = run({"extremes", "ior", "--from", json});
     EXPECT_EQ(other.status, 2);
     EXPECT_NE(other.err.find("it has no point of these axes"), std::string::npos) << other.err;
