@@ -121,12 +121,9 @@ public:
     void write(const MergeCommand& options)
     {
         metadata_["samples"] = std::to_string(maker_->film().batches() * batch_size_);
-        for (const std::string& path : options.outputs) {
-            if (!images::has_ending(path, ".exr"))
-                throw std::invalid_argument("-o " + path + ": a golden is an .exr");
+        for (const std::string& path : options.outputs)
             maker_->write(path, metadata_,
                           options.finish ? images::FilmState::omit : images::FilmState::keep);
-        }
     }
 
 private:
@@ -168,9 +165,12 @@ ExitStatus merge_parts(const MergeCommand& options)
         batches = options.samples / size;
     }
     parts = in_order(std::move(parts), batches);
-    if (parts.front().says.metadata.contains("golden.pilot_batches"))
-        return join(WholeGolden(parts.front()), parts, options);
-    return join(Whole(parts.front()), parts, options);
+    if (!parts.front().says.metadata.contains("golden.pilot_batches"))
+        return join(Whole(parts.front()), parts, options);
+    for (const std::string& path : options.outputs)
+        if (!images::has_ending(path, ".exr"))
+            throw std::invalid_argument("-o " + path + ": a golden is an .exr");
+    return join(WholeGolden(parts.front()), parts, options);
 }
 
 } // namespace cli

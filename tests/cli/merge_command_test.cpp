@@ -169,6 +169,8 @@ TEST_F(Merge, MakesAGoldenOfItsParts)
     ASSERT_EQ(made.status, 0) << made.err;
     EXPECT_TRUE(read_bytes(folder / "made.exr") == read_bytes(folder / "whole/cornell_glass.exr"));
     EXPECT_EQ(merge({"9..14.exr", "5..9.exr"}, {"-o", file("x.exr"), "--finish"}).status, 2);
+    EXPECT_NE(merge({"0..2.exr", "2..5.exr"}, {"-o", file("x.png")}).err.find("a golden is an .exr"),
+              std::string::npos);
 }
 
 } // namespace
