@@ -223,6 +223,21 @@ void read_state(const fs::path& path, std::string_view bytes, Reader& reader, Ex
         picture.strategies.emplace(*range, std::move(sums));
 }
 
+/// What read() returns. Its exceptions become ImageErrors.
+template <class Read>
+auto with_name_in_errors(const fs::path& path, const Read& read)
+{
+    try {
+        return read();
+    } catch (const std::bad_alloc&) {
+        throw ImageError(path, "asks for more memory than there is");
+    } catch (const ImageError&) {
+        throw;
+    } catch (const std::exception& error) { // Iex's, of many types
+        throw ImageError(path, error.what());
+    }
+}
+
 } // namespace
 
 void expect_sound_state(const fs::path& path, const ExrPicture& picture)
@@ -233,7 +248,7 @@ void expect_sound_state(const fs::path& path, const ExrPicture& picture)
 ExrPicture read_exr(const fs::path& path, const std::string& layer)
 {
     const std::string bytes = read_file(path);
-    try {
+    return with_name_in_errors(path, [&] {
         const PictureSource source = find_picture(path, read_headers(path, bytes), layer);
         Reader reader(path, bytes, source.part);
         ExrPicture picture;
@@ -250,31 +265,19 @@ ExrPicture read_exr(const fs::path& path, const std::string& layer)
             picture.standard_error = reader.colours(standard_error_layer);
         read_state(path, bytes, reader, picture);
         return picture;
-    } catch (const std::bad_alloc&) {
-        throw ImageError(path, "asks for more memory than there is");
-    } catch (const ImageError&) {
-        throw;
-    } catch (const std::exception& error) { // Iex's, of many types
-        throw ImageError(path, error.what());
-    }
+    });
 }
 
 ExrSummary read_exr_summary(const fs::path& path)
 {
     const std::string bytes = read_file(path);
-    try {
+    return with_name_in_errors(path, [&] {
         const Imf::Header header = read_headers(path, bytes).front();
         const Imath::Box2i& window = header.displayWindow();
         StateRange state = range_of_state(path, bytes, header);
-        return {window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, read_metadata(header),
-                state.range, std::move(state.no_state)};
-    } catch (const std::bad_alloc&) {
-        throw ImageError(path, "asks for more memory than there is");
-    } catch (const ImageError&) {
-        throw;
-    } catch (const std::exception& error) { // Iex's, of many types
-        throw ImageError(path, error.what());
-    }
+        return ExrSummary{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1,
+                          read_metadata(header), state.range, std::move(state.no_state)};
+    });
 }
 
 } // namespace images
