@@ -212,6 +212,18 @@ RC_GTEST_PROP(Glass, RadianceIsSqueezedAndPowerIsNot, ()) // map: eta-squared
     }
 }
 
+// The probability of the lobe times eta^2 |cos| on the side of wi, from both sides of the surface.
+RC_GTEST_PROP(Glass, ADeltaLobeHasItsProbabilityPerProjectedSolidAngleTimesEtaSquared, ())
+{
+    const scenes::Material glass = scenes::Glass{Rgb(0.9), Rgb(0.8), 1.5};
+    const Vec3 wo = *any_direction();
+    const auto s = sample_bsdf(glass, wo, {0.5, 0.5, *any_unit(), 0.5}, Transport::radiance);
+    const double eta = s.wi_local.z > 0.0 ? 1.0 : 1.5;
+    const double expected = s.pdf_fwd * eta * eta * std::abs(s.wi_local.z);
+    RC_ASSERT(std::abs(ref::density_of_delta_lobe(glass, wo, s.wi_local) - expected) <=
+              16 * epsilon * expected);
+}
+
 // In through one face and out through a parallel one: the radiance is unchanged, and so is the
 // direction.
 RC_GTEST_PROP(Glass, ARoundTripInAndOutIsLossless, ())
