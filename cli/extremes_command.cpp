@@ -145,15 +145,13 @@ ExitStatus show_earlier_walk(const ExtremesCommand& options, std::vector<WalkedA
     std::optional<extremes::Description> description;
     for (const std::string& file : options.from)
         show_from(file, [&](const extremes::Json& json) {
-            extremes::Description own = extremes::description_of(json);
-            const std::string program = own.program;
-            own.cases = description ? description->cases : own.cases;
-            own.seed = description ? description->seed : own.seed;
-            extremes::restore(json, own, walked, true);
-            if (!description)
-                description = own;
-            else if (description->program.find(program) == std::string::npos)
-                description->program += ", " + program;
+            const extremes::Description own = extremes::description_of(json);
+            if (!description) description = own;
+            extremes::Description expected = *description;
+            expected.program = own.program; // of another version, too
+            extremes::restore(json, expected, walked, true);
+            if (description->program.find(own.program) == std::string::npos)
+                description->program += ", " + own.program;
         });
     for (WalkedAxis& axis : walked)
         std::erase_if(axis.methods, [](const WalkedAxis::Of& of) { return of.points.empty(); });

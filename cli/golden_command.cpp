@@ -8,11 +8,11 @@
 #include "cli/golden_render.h"
 #include "cli/interrupt.h"
 #include "cli/output_files.h"
-#include "cli/progress.h"
 #include "cli/render_metadata.h"
 #include "cli/renderer_for.h"
 #include "cli/scene_input.h"
 #include "images/exr.h"
+#include "images/image_error.h"
 
 #include <CLI/CLI.hpp>
 
@@ -41,7 +41,6 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
     const scenes::Scene scene = load_scene(file, false, options.quiet);
     images::Metadata metadata = describe(command, scene);
     const fs::path path = golden_file(options, file);
-    const std::uint64_t batches = options.samples / options.batch_size;
 
     std::optional<golden::GoldenMaker> maker;
     if (fs::exists(path)) {
@@ -55,6 +54,8 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
             return true;
         }
         maker.emplace(golden::GoldenMaker::resume(path));
+        if (maker->film().range().first > 0)
+            throw images::ImageError(path, "a part of a golden: plumbline merge joins parts");
     } else {
         maker.emplace(size.width, size.height, options.pilot_batches);
     }
@@ -62,26 +63,13 @@ bool make_golden(const GoldenCommand& options, const std::string& file)
 
     const auto renderer = renderer_for(command, scene);
     const Clock::time_point start = Clock::now();
-    Clock::time_point kept = start;
     const auto keep = [&](images::FilmState state) {
         metadata["samples"] = std::to_string(maker->film().batches() * options.batch_size);
         maker->write(path, metadata, state);
     };
-    {
-        Progress progress(scene.name, static_cast<double>(maker->film().batches()),
-                          static_cast<double>(batches), options.quiet);
-        const images::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
-        const auto add = [&](const images::Batch& batch) {
-            maker->add_batch(batch.mean);
-            if (std::chrono::duration<double>(Clock::now() - kept).count() < options.watch) return;
-            keep(images::FilmState::keep);
-            kept = Clock::now();
-        };
-        if (!render_batches(*renderer, maker->film().batches(), batches, monitor, add)) {
-            if (maker->film().batches() > 0) keep(images::FilmState::keep);
-            return false;
-        }
-    }
+    if (!fill_golden(*maker, options.samples / options.batch_size, *renderer,
+                     {scene.name, options.quiet, [&] { keep(images::FilmState::keep); }, options.watch}))
+        return false;
     keep(images::FilmState::omit);
     std::printf("%s: %llu samples per pixel, %.0f s, %.2f MiB\n", scene.name.c_str(),
                 static_cast<unsigned long long>(options.samples),

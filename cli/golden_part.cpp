@@ -4,9 +4,7 @@
 #include "cli/golden_part.h"
 
 #include "cli/golden_render.h"
-#include "cli/interrupt.h"
 #include "cli/output_files.h"
-#include "cli/progress.h"
 #include "cli/render_metadata.h"
 #include "cli/renderer_for.h"
 #include "cli/scene_input.h"
@@ -15,7 +13,6 @@
 #include "images/parts.h"
 #include "images/write_image.h"
 
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -99,14 +96,7 @@ ExitStatus make_golden_part(const GoldenCommand& options)
         maker.write(options.output, metadata, images::FilmState::keep);
     };
     const auto renderer = renderer_for(command, scene);
-    const auto done_before = [&](double number) { return number - static_cast<double>(range.first); };
-    Progress progress(scene.name, done_before(static_cast<double>(maker.film().range().end)),
-                      static_cast<double>(range.size()), options.quiet);
-    const images::Monitor monitor{[&](double done) { progress.update(done_before(done)); },
-                                  interrupt_requested};
-    if (!render_batches(*renderer, maker.film().range().end, range.end, monitor,
-                        [&](const images::Batch& batch) { maker.add_batch(batch.mean); })) {
-        if (maker.film().batches() > 0) keep();
+    if (!fill_golden(maker, range.end, *renderer, {scene.name, options.quiet, keep, options.watch})) {
         std::cerr << "plumbline: interrupted: the same command goes on from here\n";
         return interrupted;
     }

@@ -1,8 +1,11 @@
 #include "cli/golden_render.h"
 
+#include "cli/interrupt.h"
+#include "cli/progress.h"
 #include "cli/render_metadata.h"
 #include "images/whole_number.h"
 
+#include <chrono>
 #include <stdexcept>
 
 namespace cli {
@@ -10,6 +13,8 @@ namespace cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 std::uint64_t number_in(const images::Metadata& metadata, const std::string& key)
 {
@@ -68,6 +73,27 @@ std::string golden_command_of(const GoldenCommand& options, const std::string& s
            " -s " + std::to_string(options.samples) + " --batch " + std::to_string(options.batch_size) +
            " --pilot " + std::to_string(options.pilot_batches) + " --max-edges " +
            std::to_string(options.max_edges);
+}
+
+bool fill_golden(golden::GoldenMaker& maker, std::uint64_t end, images::Renderer& renderer,
+                 const Following& following)
+{
+    const images::BatchRange there = maker.film().range();
+    const auto first = static_cast<double>(there.first);
+    Progress progress(following.name, static_cast<double>(there.size()),
+                      static_cast<double>(end) - first, following.quiet);
+    const images::Monitor monitor{[&](double done) { progress.update(done - first); },
+                                  interrupt_requested};
+    Clock::time_point kept = Clock::now();
+    const auto add = [&](const images::Batch& batch) {
+        maker.add_batch(batch.mean);
+        if (std::chrono::duration<double>(Clock::now() - kept).count() < following.watch) return;
+        following.keep();
+        kept = Clock::now();
+    };
+    if (render_batches(renderer, there.end, end, monitor, add)) return true;
+    if (maker.film().batches() > 0) following.keep();
+    return false;
 }
 
 fs::path golden_file(const GoldenCommand& options, const std::string& scene)

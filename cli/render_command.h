@@ -66,7 +66,7 @@ bool wants_layers(const RenderCommand& options);
 /// that cannot be written.
 void check(const RenderCommand& options);
 
-/// The batches to render. Throws std::invalid_argument for a text that is no range, or an empty one.
+/// The batches to render. Throws std::invalid_argument as parse_batches and expect_whole_batches.
 images::BatchRange range_of(const RenderCommand& options);
 
 /// For CLI11: what is wrong with the text of --batches, or nothing.

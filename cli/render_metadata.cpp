@@ -51,10 +51,4 @@ images::Metadata with_defaults(images::Metadata metadata)
     return metadata;
 }
 
-std::string value_of(const images::Metadata& metadata, const std::string& key)
-{
-    const auto found = metadata.find(key);
-    return found == metadata.end() ? "" : found->second;
-}
-
 } // namespace cli

@@ -18,7 +18,6 @@ images::Metadata describe(const RenderCommand& options, const scenes::Scene& sce
 /// `metadata` with the entries that `describe` leaves out at their defaults.
 images::Metadata with_defaults(images::Metadata metadata);
 
-/// The metadata's entry `key`; the empty string if there is none.
-std::string value_of(const images::Metadata& metadata, const std::string& key);
+using images::value_of;
 
 } // namespace cli

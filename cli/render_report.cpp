@@ -98,6 +98,7 @@ std::vector<std::string> warnings(const RenderRun& run)
 std::string render_json(const RenderCommand& options, const RenderRun& run)
 {
     const std::uint64_t held = run.film.batches() * options.batch_size;
+    const images::Image mean = run.film.mean();
     const auto error = run.mean.standard_error(run.film.batches());
     const auto rate = [&](double time) { return time > 0.0 ? run.samples / time : 0.0; };
     const Json json = {{"scene", run.scene.name},
@@ -119,10 +120,10 @@ std::string render_json(const RenderCommand& options, const RenderRun& run)
                        {"samples_per_cpu_second", rate(run.cpu_seconds)},
                        {"threads", options.threads},
                        {"peak_rss_bytes", peak_rss_bytes()},
-                       {"mean_rgb", channels(mean_of(run.film.mean()))},
+                       {"mean_rgb", channels(mean_of(mean))},
                        {"mean_rgb_standard_error", error ? channels(*error) : Json(nullptr)},
                        {"dropped", run.dropped.count},
-                       {"black_despite_emitters", is_unexpectedly_black(run.scene, run.film.mean())},
+                       {"black_despite_emitters", is_unexpectedly_black(run.scene, mean)},
                        {"requirements", requirements_json(run.scene)},
                        {"kernel", kernel_json(run.kernel)},
                        {"outputs", options.outputs}};

@@ -45,13 +45,14 @@ images::Film starting_film(const RenderCommand& options, const images::Metadata&
         throw std::invalid_argument(*exr + ": cannot resume: it begins with batch " +
                                     std::to_string(film.range().first) + ", not " +
                                     std::to_string(range.first));
-    if (film.range().end > range.end && !options.batches.empty())
-        throw std::invalid_argument(*exr + ": holds batches " + describe(film.range()) +
-                                    " already, more than --batches " + options.batches);
     if (film.range().end > range.end)
-        throw std::invalid_argument(
-            *exr + ": holds " + std::to_string(film.batches() * options.batch_size) +
-            " samples per pixel already, more than -s " + std::to_string(options.samples));
+        throw std::invalid_argument(*exr + ": holds " +
+                                    (options.batches.empty()
+                                         ? std::to_string(film.batches() * options.batch_size) +
+                                               " samples per pixel already, more than -s " +
+                                               std::to_string(options.samples)
+                                         : "batches " + describe(film.range()) +
+                                               " already, more than --batches " + options.batches));
     const std::string lacking = value_of(picture.metadata, "dropped");
     if (!lacking.empty()) {
         const auto count = images::whole_number(lacking);

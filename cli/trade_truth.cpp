@@ -2,7 +2,6 @@
 
 #include "cli/golden_render.h"
 #include "cli/interrupt.h"
-#include "cli/progress.h"
 #include "cli/render_metadata.h"
 #include "cli/renderer_for.h"
 #include "cli/scene_input.h"
@@ -147,18 +146,9 @@ NamedTruth cached_truth(const TradeCommand& options, const scenes::Scene& scene,
         maker.write(path, metadata, state);
     };
     const auto renderer = renderer_for(render, scene);
-    bool complete = false;
-    {
-        Progress progress("truth of " + scene.name, static_cast<double>(maker.film().batches()),
-                          static_cast<double>(all_batches), options.quiet);
-        const images::Monitor monitor{[&](double done) { progress.update(done); }, interrupt_requested};
-        complete = render_batches(*renderer, maker.film().batches(), all_batches, monitor,
-                                  [&](const images::Batch& batch) { maker.add_batch(batch.mean); });
-    }
-    if (!complete) {
-        if (maker.film().batches() > 0) keep(images::FilmState::keep);
+    if (!fill_golden(maker, all_batches, *renderer,
+                     {"truth of " + scene.name, options.quiet, [&] { keep(images::FilmState::keep); }}))
         throw Interrupted();
-    }
     keep(images::FilmState::omit);
     return in_words(golden::read_golden(path), path.string());
 }

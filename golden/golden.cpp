@@ -249,8 +249,10 @@ Golden GoldenMaker::golden(const images::Metadata& metadata) const
     expect_golden();
     images::Metadata all = metadata;
     describe(all);
-    return {in_single_precision(film_.mean()),
-            in_single_precision(film_.standard_error()),
+    images::BatchMoments moments = film_.moments();
+    images::Image error = images::standard_error(moments, film_.batches());
+    return {in_single_precision(std::move(moments.mean)),
+            in_single_precision(std::move(error)),
             std::move(all),
             *functionals_,
             reference_,

@@ -4,8 +4,8 @@
 // be folded on different machines and joined later, with the bits of one machine.
 //
 // A block holds 2^k batches from a multiple of 2^k on. It is made from its two halves, in one way; a
-// block of one batch is that batch. Any range of batches is a row of largest blocks in one way, of at
-// most two sizes each: batches 3 to 10 are the blocks {3} {4 5 6 7} {8 9} {10}. These are kept. Where
+// block of one batch is that batch. Any range of batches is a row of largest blocks in one way, at most
+// two of each size: batches 3 to 10 are the blocks {3} {4 5 6 7} {8 9} {10}. These are kept. Where
 // two halves of a block meet they become the block, as digits do that carry in binary addition: after n
 // batches from 0 on there are as many blocks as n has binary ones. It is also the more exact way to add:
 // a value takes part in log2(n) additions and not in n [Higham 1993, "The accuracy of floating point

@@ -180,6 +180,8 @@ std::vector<std::pair<int, int>> strategies_of(const Imf::ChannelList& channels,
     return found;
 }
 
+constexpr const char* without_state = "holds no state to go on from";
+
 /// The range of the batches in the state, or why there is none.
 struct StateRange {
     std::optional<BatchRange> range;
@@ -192,7 +194,7 @@ StateRange range_of_state(const fs::path& path, std::string_view bytes, const Im
     const auto* const text = string_attribute(header, range_attribute);
     if (text == nullptr && header.channels().findChannel("state.mean.R.hi") != nullptr)
         return {{}, true, "holds the state of an earlier version of this program, which is of no use"};
-    if (text == nullptr) return {{}, false, "holds no state to go on from"};
+    if (text == nullptr) return {{}, false, without_state};
     if (!has_right_checksum(bytes))
         return {{}, true, "is damaged, cut short or changed: its checksum is not that of its bytes"};
     const auto range = parse_range(text->value());
@@ -252,7 +254,7 @@ ExrPicture read_exr(const fs::path& path, const std::string& layer)
         const PictureSource source = find_picture(path, read_headers(path, bytes), layer);
         Reader reader(path, bytes, source.part);
         ExrPicture picture;
-        picture.no_state = "holds no state to go on from";
+        picture.no_state = without_state;
         picture.layer = source.layer;
         picture.mean = source.grey ? reader.grey(source.layer) : reader.colours(source.layer);
         picture.metadata = read_metadata(reader.header());

@@ -50,4 +50,11 @@ std::optional<PixelPosition> first_non_finite(const Image& image);
 /// The origin of a picture by name: scene, integrator, samples, seed and so on.
 using Metadata = std::map<std::string, std::string>;
 
+/// The metadata's entry `key`; the empty string if there is none.
+inline std::string value_of(const Metadata& metadata, const std::string& key)
+{
+    const auto found = metadata.find(key);
+    return found == metadata.end() ? "" : found->second;
+}
+
 } // namespace images

@@ -54,14 +54,11 @@ void expect_same_render(const Part& first, const Part& other)
     if (size(first) != size(other)) differ("size", size(other), size(first));
     const Metadata there = without_counts(first.says.metadata);
     const Metadata here = without_counts(other.says.metadata);
-    const auto value = [](const Metadata& metadata, const std::string& key) {
-        const auto found = metadata.find(key);
-        return found == metadata.end() ? "" : found->second;
-    };
     Metadata all = there;
     all.insert(here.begin(), here.end());
     for (const auto& [key, unused] : all)
-        if (value(here, key) != value(there, key)) differ(key, value(here, key), value(there, key));
+        if (value_of(here, key) != value_of(there, key))
+            differ(key, value_of(here, key), value_of(there, key));
 }
 
 std::vector<Part> in_order(std::vector<Part> parts, std::optional<std::uint64_t> batches)

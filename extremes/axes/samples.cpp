@@ -89,11 +89,10 @@ Axis samples_axis()
         return u64 * (13 * 2 * std::log2(std::max(2.0, n / samples_of_batch)) + 5);
     };
     constexpr double tested = 0x1p22;
-    const std::string because = "the film joins batches in pairs, in double: its error grows with the "
-                                "logarithm of their number; "
-                                "2^32 samples are the most that are walked, and by this bound no number "
-                                "of samples that a counter "
-                                "of 64 bits holds has an error above 2e-13";
+    const std::string because =
+        "the film joins batches in pairs, in double: its error grows with the logarithm of their "
+        "number; 2^32 samples are the most that are walked, and by this bound no number of samples that "
+        "a counter of 64 bits holds has an error above 2e-13";
     axis.limits = {
         {"ref", 0x1p32, film_bound, no_failure, Failure::inaccurate, because, tested},
         {"host", 0x1p32, [=](double n) { return film_bound(n) + 5 * u32; }, no_failure,

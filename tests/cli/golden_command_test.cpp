@@ -54,6 +54,19 @@ TEST_F(GoldenCommand, FindsTheNextTimeThatItIsThere)
     EXPECT_TRUE(read_bytes(file) == bytes);
 }
 
+TEST_F(GoldenCommand, RefusesAPartInItsPlace)
+{
+    const Arguments part = {"--pilot", "4", "--max-edges", "6", "-s", "64", "--batches"};
+    const Arguments common = {"golden", scene_file("cornell_glass"), "--size", "12x8", "--batch", "4"};
+    ASSERT_EQ(run(common + part + Arguments{"2..4", "-o", file}).status, 0);
+    const std::string bytes = read_bytes(file);
+    const Outcome outcome = run(golden());
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find("a part of a golden: plumbline merge joins parts"), std::string::npos)
+        << outcome.err;
+    EXPECT_TRUE(read_bytes(file) == bytes);
+}
+
 TEST_F(GoldenCommand, NeverReplacesAnotherGolden)
 {
     ASSERT_EQ(run(golden()).status, 0);

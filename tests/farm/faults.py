@@ -17,8 +17,7 @@ import time
 
 import lossy
 import overhead
-from machine import described
-from site_of_processes import ROOT, Site, end_session, parts_there, wait_until
+from site_of_processes import ROOT, Site, end_session, machine, parts_there, wait_until
 
 SCENE = ROOT / "scenes/cornell_glass.dae"
 OPTIONS = ["--size", "48x48"]
@@ -185,7 +184,7 @@ def main(argv):
         return overhead.measure(program, folder, arguments.out or ROOT / "out/farm/overhead.json")
     faults = Faults(program, folder, arguments.samples)
     faults.render_alone()
-    lines = [described(), "", "| fault | what happened | same bits |", "|---|---|---|"]
+    lines = [machine(), "", "| fault | what happened | same bits |", "|---|---|---|"]
     wrong = 0
     for name in arguments.fault or FAULTS:
         try:

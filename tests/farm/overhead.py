@@ -7,8 +7,7 @@ import statistics
 import subprocess
 import time
 
-from machine import described
-from site_of_processes import ROOT, Site
+from site_of_processes import ROOT, Site, machine
 
 SCENE = ROOT / "scenes/cornell_glass.dae"
 TINY = ["--size", "1x1", "-t", "1"]
@@ -19,7 +18,7 @@ MERGED = (480, 270)  # pixels
 
 
 def measure(program, folder, out):
-    measured = {"machine": described(), "command": "./run farmfaults --overhead", "load_before": os.getloadavg()[0]}
+    measured = {"machine": machine(), "command": "./run farmfaults --overhead", "load_before": os.getloadavg()[0]}
     measured |= _program(program, folder)
     measured |= _merge(program, folder)
     for workers in (1, 2):

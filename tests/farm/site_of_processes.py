@@ -1,6 +1,7 @@
 """A site on this machine: a Dask scheduler and workers as processes, and a driver beside them. Each can be killed, stopped, or put behind
 a network that loses packets."""
 
+import datetime
 import os
 import pathlib
 import signal
@@ -10,6 +11,11 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tests/mutants"))
+
+from machine import processor  # noqa: E402
+from processes import end_session, session  # noqa: E402
+
 PYTHON = ROOT / "build/farm/venv/bin/python"
 
 
@@ -81,35 +87,9 @@ def _command(pid):
         return ""
 
 
-def session(leader):
-    """The processes of a session that live."""
-    found = []
-    for name in filter(str.isdigit, os.listdir("/proc")):
-        try:
-            if os.getsid(int(name)) == leader:
-                found.append(int(name))
-        except (ProcessLookupError, PermissionError):
-            pass
-    return found
-
-
-def end_session(process):
-    for pid in session(process.pid):
-        try:
-            os.kill(pid, signal.SIGCONT)
-            os.kill(pid, signal.SIGTERM)
-        except ProcessLookupError:
-            pass
-    try:
-        process.wait(timeout=3)
-    except subprocess.TimeoutExpired:
-        pass
-    for pid in session(process.pid):
-        try:
-            os.kill(pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
-    process.wait()
+def machine():
+    """The machine and the day of a measurement, in words."""
+    return f"{processor()}, {datetime.date.today().isoformat()}"
 
 
 def parts_there(folder):

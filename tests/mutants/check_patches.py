@@ -87,7 +87,7 @@ def faults_of(made, tests, targets):
 def first_tests_that_are_none(root, tests):
     """Sentences about the list of tests with which ctest begins."""
     names = (root / "tests/mutants/first_tests.txt").read_text().splitlines()
-    return [f"../first_tests.txt: there is no test {name}" for name in names if not exists(name, tests)]
+    return [f"first_tests.txt: there is no test {name}" for name in names if not exists(name, tests)]
 
 
 def main(root=mutant.ROOT):
@@ -95,13 +95,13 @@ def main(root=mutant.ROOT):
     tests, targets = frozenset(defined_tests(root)), defined_targets(root)
     faults += do_not_apply(mutants, root)
     faults += [fault for made in mutants for fault in faults_of(made, tests, targets)]
-    faults += first_tests_that_are_none(root, tests)
     diffs = {}
     for made in mutants:
         if (first := diffs.setdefault(made.diff, made.name)) != made.name:
             faults.append(f"{made.name}.patch: the same change as {first}.patch")
+    faults = [f"patches/{fault}" for fault in faults] + first_tests_that_are_none(root, tests)
     for fault in faults:
-        print(f"tests/mutants/patches/{fault}")
+        print(f"tests/mutants/{fault}")
     return 1 if faults else 0
 
 

@@ -8,8 +8,8 @@ import argparse
 import sys
 
 import mutant
-import workers
 from keep import alone
+from machine import processors
 from mutants import found, guarded
 from project import Project, is_test_program
 from trial import noticed
@@ -70,7 +70,7 @@ def main(argv):
         prog="./run exercises", description="Removes one thing from a copy of the sources, and looks which tests fail."
     )
     parser.add_argument("name", nargs="*", help="an exercise of docs/exercises.md; default: all")
-    parser.add_argument("-j", "--jobs", type=int, default=workers.processors(), help="compilers at once")
+    parser.add_argument("-j", "--jobs", type=int, default=processors(), help="compilers at once")
     arguments = parser.parse_args(argv)
     chosen = found("exercise", exercises, arguments.name, parser.error)
     project = Project(builders=arguments.jobs)

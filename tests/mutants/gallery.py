@@ -11,10 +11,10 @@ import sys
 import tempfile
 
 import mutant
-import workers
 from gallery_page import PAGE, written
 from gallery_picture import draw
 from keep import alone, write_whole
+from machine import processors
 from mutants import found, guarded
 from project import Project
 
@@ -98,7 +98,7 @@ def main(argv):
     chosen = [made for made in found("mutant", mutant.kept, names, parser.error) if made.cause or names]
     if without := [made.name for made in chosen if not made.cause]:
         parser.error(f"{without[0]} has no line Cause")
-    project = Project(builders=workers.processors())
+    project = Project(builders=processors())
     with alone(project.place):
         draw_all(project, chosen)
     page = mutant.ROOT / PAGE

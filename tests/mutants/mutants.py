@@ -8,7 +8,6 @@ import datetime
 import functools
 import os
 import pathlib
-import platform
 import signal
 import sys
 import time
@@ -18,6 +17,7 @@ import mutant as mutant_file
 import tables
 import workers
 from keep import Kept, alone, write_whole
+from machine import processor, processors
 from processes import Stopped
 from progress import Progress, line
 from project import Project
@@ -35,7 +35,7 @@ def parser():
         "1 if not; 2 for a usage error.",
     )
     made.add_argument("name", nargs="*", help="mutants (default: all)")
-    made.add_argument("-j", "--jobs", type=int, default=workers.processors(), help="workers (default: one per processor)")
+    made.add_argument("-j", "--jobs", type=int, default=processors(), help="workers (default: one per processor)")
     made.add_argument("--all-tests", action="store_true", help="run all tests, not only until one fails: counts how many notice it")
     made.add_argument("--generated", action="store_true", help="the sample of generated mutants in place of the patches")
     made.add_argument("--sample", type=int, metavar="N", help="with --generated: how many")
@@ -98,21 +98,13 @@ def _try_alone(project, mutants, jobs, all_tests, again, out, status):
 def described(arguments, seconds, results):
     """What stands above the tables."""
     spent = sum(result.build_seconds + result.test_seconds for result in results)
-    model = next((text.partition(": ")[2] for text in _lines("/proc/cpuinfo") if text.startswith("model name")), platform.machine())
     return {
         "command": " ".join(["./run mutants", *arguments]),
         "date": datetime.date.today().isoformat(),
-        "processor": f"{model}, {workers.processors()} cores",
+        "processor": processor(),
         "seconds_of_this_start": round(seconds, 1),
         "seconds_of_builds_and_tests": round(spent, 1),
     }
-
-
-def _lines(path):
-    try:
-        return pathlib.Path(path).read_text().splitlines()
-    except OSError:
-        return []
 
 
 def main(argv):
@@ -123,7 +115,7 @@ def main(argv):
         return OK
     begin = time.monotonic()
     results, unchanged = try_chosen(
-        Project(builders=max(1, workers.processors() // arguments.jobs)), mutants, arguments.jobs, arguments.all_tests, arguments.again
+        Project(builders=max(1, processors() // arguments.jobs)), mutants, arguments.jobs, arguments.all_tests, arguments.again
     )
     run = described(argv, time.monotonic() - begin, results)
     default = mutant_file.ROOT / "out" / ("mutants_generated" if arguments.generated else "mutants")

@@ -83,7 +83,7 @@ def end_session(process):
             process.wait(timeout=GRACE)
         except subprocess.TimeoutExpired:
             pass
-    for pid in _session(process.pid):
+    for pid in session(process.pid):
         try:
             os.kill(pid, signal.SIGKILL)
         except ProcessLookupError:
@@ -98,8 +98,8 @@ def _signal_group(group, number):
         pass
 
 
-def _session(leader):
-    """The processes of a session. (A dead leader's number is not given to another process while its session lives.)"""
+def session(leader):
+    """The processes of a session that live. (A dead leader's number is not given to another process while its session lives.)"""
     found = []
     for name in filter(str.isdigit, os.listdir("/proc")):
         try:

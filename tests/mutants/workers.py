@@ -1,7 +1,6 @@
 """Several workers, each with its own copy of the sources, try mutants until none is left."""
 
 import collections
-import os
 import queue
 import threading
 
@@ -124,7 +123,3 @@ def _build_unchanged(project, copy, preset, program):
     if project.path_of(copy.folder, preset, program) is None:
         if error := project.build(copy.folder, preset, program):
             raise RuntimeError(f"{program} does not build in {copy.folder} without a mutant:\n{error}")
-
-
-def processors():
-    return len(os.sched_getaffinity(0))
