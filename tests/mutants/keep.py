@@ -29,7 +29,8 @@ class Outcome(str, enum.Enum):
 
 @dataclasses.dataclass
 class Result:
-    """`killed_by`: the first test that noticed the mutant, and `killers` all of them if all tests were run. `wrong`: what is
+    """`killed_by`: the first test that noticed the mutant, `killers`: all that did. `weighed`: whether tests were run until two
+    noticed it, and all that had noticed none of the mutants before. `wrong`: what is
     not as the mutant's head says, in sentences. `detail`: the first lines of the compiler or of git."""
 
     name: str
@@ -42,7 +43,7 @@ class Result:
     wrong: list[str] = dataclasses.field(default_factory=list)
     detail: str = ""
     equivalent: str = ""
-    all_tests: bool = False
+    weighed: bool = False
     killers: list[str] = dataclasses.field(default_factory=list)
 
     @property
@@ -89,17 +90,17 @@ class Kept:
             except (ValueError, KeyError, TypeError):
                 continue  # the runner was ended while it wrote this line, or is newer
             if entry["sources"] == sources:
-                self.results[entry["mutant"], result.all_tests] = result
+                self.results[entry["mutant"], result.weighed] = result
                 lines.append(line + "\n")
         write_whole(path, "".join(lines))
 
-    def find(self, mutant, all_tests):
-        found = self.results.get((mutant.digest, all_tests))
+    def find(self, mutant, weighed):
+        found = self.results.get((mutant.digest, weighed))
         return found and dataclasses.replace(found, name=mutant.name, title=mutant.title)
 
     def add(self, mutant, result):
         entry = {"mutant": mutant.digest, "sources": self.sources, "result": dataclasses.asdict(result)}
         with self._lock:
-            self.results[mutant.digest, result.all_tests] = result
+            self.results[mutant.digest, result.weighed] = result
             with self.path.open("a") as file:
                 file.write(json.dumps(entry) + "\n")

@@ -22,6 +22,7 @@ from processes import Stopped
 from progress import Progress, line
 from project import Project
 from sources import digest
+from trial import Idle
 from unchanged import Unchanged, Unusable
 
 OK, NOT_FINE, USAGE, INTERRUPTED = 0, 1, 2, 130
@@ -36,7 +37,9 @@ def parser():
     )
     made.add_argument("name", nargs="*", help="mutants (default: all)")
     made.add_argument("-j", "--jobs", type=int, default=processors(), help="workers (default: one per processor)")
-    made.add_argument("--all-tests", action="store_true", help="run all tests, not only until one fails: counts how many notice it")
+    made.add_argument(
+        "--weigh-tests", action="store_true", help="run tests until two notice a mutant, and all that have noticed none before"
+    )
     made.add_argument("--generated", action="store_true", help="the sample of generated mutants in place of the patches")
     made.add_argument("--sample", type=int, metavar="N", help="with --generated: how many")
     made.add_argument("--seed", type=int, metavar="S", help="with --generated: each seed has its own sample")
@@ -68,25 +71,26 @@ def found(what, find, names, error):
         error(str(wrong))
 
 
-def try_chosen(project, mutants, jobs, all_tests=False, again=False, out=None, status=None):
+def try_chosen(project, mutants, jobs, weigh=False, again=False, out=None, status=None):
     """(results in the order of `mutants`, Unchanged). Raises Unusable."""
     with alone(project.place):
-        return _try_alone(project, mutants, jobs, all_tests, again, out or sys.stdout, status or sys.stderr)
+        return _try_alone(project, mutants, jobs, weigh, again, out or sys.stdout, status or sys.stderr)
 
 
-def _try_alone(project, mutants, jobs, all_tests, again, out, status):
+def _try_alone(project, mutants, jobs, weigh, again, out, status):
     sources = digest(project.root)
     unchanged = Unchanged(project, sources)
     kept = Kept(project.place / "results.jsonl", sources)
-    known = {} if again else {m.name: r for m in mutants if (r := kept.find(m, all_tests))}
+    known = {} if again else {m.name: r for m in mutants if (r := kept.find(m, weigh))}
     waiting = [m for m in mutants if m.name not in known]
     width = max((len(m.name) for m in mutants), default=0)
     for result in known.values():
         print(line(result, width) + ", known", file=out, flush=True)
+    idle = Idle(test for result in known.values() for test in result.killers) if weigh else None
     progress = Progress(len(waiting), len(mutants), width, out, status)
     try:
         workers.measure(project, unchanged, waiting, jobs, progress.say)
-        for mutant, result in workers.try_all(project, unchanged, waiting, jobs, all_tests):
+        for mutant, result in workers.try_all(project, unchanged, waiting, jobs, idle):
             kept.add(mutant, result)
             known[mutant.name] = result
             progress.result(result)
@@ -115,7 +119,7 @@ def main(argv):
         return OK
     begin = time.monotonic()
     results, unchanged = try_chosen(
-        Project(builders=max(1, processors() // arguments.jobs)), mutants, arguments.jobs, arguments.all_tests, arguments.again
+        Project(builders=max(1, processors() // arguments.jobs)), mutants, arguments.jobs, arguments.weigh_tests, arguments.again
     )
     run = described(argv, time.monotonic() - begin, results)
     default = mutant_file.ROOT / "out" / ("mutants_generated" if arguments.generated else "mutants")

@@ -131,17 +131,17 @@ class Tables(unittest.TestCase):
     times = {"release/test_toy": {"A.Cheap": 0.01, "A.Dear": 1.0, "A.Idle": 0.0}}
     mutants = [Mutant(name, name, "", ("test_toy",)) for name in "abcde"]
     results = [
-        Result("a", "ref/x/f.cpp", "a", Outcome.KILLED, "A.Cheap", all_tests=True, killers=["A.Cheap", "A.Dear"]),
-        Result("b", "ref/x/g.cpp", "b", Outcome.TIMEOUT, "A.Dear", all_tests=True, killers=["A.Dear"]),
-        Result("c", "ref/y/h.cpp", "c", Outcome.SURVIVED, all_tests=True),
-        Result("d", "ref/y/h.cpp", "d", Outcome.SURVIVED, all_tests=True, equivalent="the same"),
-        Result("e", "ref/y/h.cpp", "e", Outcome.NO_BUILD, all_tests=True, detail="error: |"),
+        Result("a", "ref/x/f.cpp", "a", Outcome.KILLED, "A.Cheap", weighed=True, killers=["A.Cheap", "A.Dear"]),
+        Result("b", "ref/x/g.cpp", "b", Outcome.TIMEOUT, "A.Dear", weighed=True, killers=["A.Dear"]),
+        Result("c", "ref/y/h.cpp", "c", Outcome.SURVIVED, weighed=True),
+        Result("d", "ref/y/h.cpp", "d", Outcome.SURVIVED, weighed=True, equivalent="the same"),
+        Result("e", "ref/y/h.cpp", "e", Outcome.NO_BUILD, weighed=True, detail="error: |"),
     ]
 
     def test_json(self):
         table = json.loads(tables.as_json(self.mutants, self.results, self.times, {}))
         self.assertEqual(table["areas"], {"ref/x": {"killed": 2, "mutants": 2}, "ref/y": {"killed": 0, "mutants": 2}})
-        self.assertEqual([(row["test"], row["kills"]) for row in table["cheapest"]], [("A.Cheap", 1), ("A.Dear", 2)])
+        self.assertEqual([(row["test"], row["kills"]) for row in table["cheapest"]], [("A.Cheap", 1), ("A.Dear", 1)])
         self.assertEqual(table["by_one_test"], {"b": "A.Dear"})
         self.assertEqual(table["tests_that_kill_nothing"], ["A.Idle"])
 
@@ -150,7 +150,7 @@ class Tables(unittest.TestCase):
         for part in ("| all | 2 | 4 | 50% |", "- `c`: SURVIVED", "- `e`: does not build", "(equivalent: the same)", "1 of 2 (50%)", "1 of 3"):
             self.assertIn(part, text)
 
-    def test_without_all_tests_no_test_is_called_idle(self):
+    def test_without_weighing_no_test_is_called_idle(self):
         results = [Result("a", "ref/x/f.cpp", "a", Outcome.KILLED, "A.Cheap")]
         self.assertNotIn("A.Idle", tables.as_markdown(self.mutants, results, self.times, {}))
         self.assertNotIn("tests_that_kill_nothing", tables.as_json(self.mutants, results, self.times, {}))

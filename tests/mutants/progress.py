@@ -45,6 +45,6 @@ class Progress:
 
 def line(result, width):
     times = f"build {result.build_seconds:.1f} s, tests {result.test_seconds:.1f} s"
-    more = f", tests that notice it: {len(result.killers)}" if result.all_tests and result.killers else ""
+    more = ", by this test alone" if result.weighed and len(result.killers) == 1 else ""
     judged = " (equivalent)" if result.equivalent else ""
     return f"{result.name:{width}}  {result.outcome.by(result.killed_by)}{more}{judged}  ({times})"

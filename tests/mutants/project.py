@@ -6,6 +6,7 @@ import re
 import signal
 
 import gtest
+import parts
 import processes
 from mutant import ROOT
 from sources import Copy
@@ -20,6 +21,7 @@ class Project:
 
     def __init__(self, root=ROOT, place=None, builders=1):
         self.root, self.place, self.builders = root, place or root / "build" / "mutants", builders
+        self._objects = {}
 
     def copy(self, number):
         return Copy(self.root, self.place / str(number))
@@ -30,7 +32,9 @@ class Project:
         listing = "-DCMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE=PRE_TEST"
         # The kernels are the same text for each instruction set, and take half a minute to compile for each.
         kernels = "-DPLUMBLINE_QUICK_KERNELS=ON"
-        configure = ["cmake", "--preset", preset, "-DPLUMBLINE_CUDA=OFF", kernels, listing]
+        # Each source file of tests for itself, so that few of them are compiled for a part of a program (parts.py).
+        groups = "-DPLUMBLINE_TEST_GROUPS=OFF"
+        configure = ["cmake", "--preset", preset, "-DPLUMBLINE_CUDA=OFF", kernels, groups, listing]
         compile_program = ["cmake", "--build", str(built), "--target", program, "-j", str(self.builders)]
         # Once there are build rules, ninja configures again by itself when it must.
         return [compile_program] if (built / "build.ninja").is_file() else [configure, compile_program]
@@ -43,21 +47,33 @@ class Project:
 
     def build(self, folder, preset, program):
         """Builds a program of a copy. Returns an empty text, or what is wrong in a few lines."""
-        # Copies share what they compile: paths below the folder count as relative ones.
-        environment = {
-            "CCACHE_BASEDIR": str(folder),
-            "CCACHE_NOHASHDIR": "1",
-            "CCACHE_SLOPPINESS": "pch_defines,time_macros",
-        }
         for command in self.commands_to_build(folder, preset, program):
-            ended = processes.run(command, folder, BUILD_SECONDS, environment)
-            if ended.status is None:
-                return f"the build of {program} was stopped after {BUILD_SECONDS} seconds"
-            if ended.status != 0:
-                _refuse_a_full_machine(program, ended.output)
-                lines = [line for line in ended.output.splitlines() if "error" in line.lower()] or ended.output.splitlines()
-                return "\n".join(line[:300] for line in lines[:LINES_OF_ERROR]) or f"exit status {ended.status}"
+            if error := _built(command, folder, folder, program):
+                return error
         return "" if self.path_of(folder, preset, program) else f"{program} is no program that the build makes"
+
+    def build_unchanged(self, folder, preset, program):
+        """Builds a program of a copy that has no mutant, and looks at what it is made of (objects)."""
+        if error := self.build(folder, preset, program):
+            return error
+        self._objects.pop((folder, preset, program), None)
+        if is_test_program(program) and preset == "release" and (path := self.path_of(folder, preset, program)):
+            built = folder / "build" / preset
+            if (built / "build.ninja").is_file():
+                self._objects[folder, preset, program] = parts.read_objects(built, str(path.relative_to(built)))
+        return ""
+
+    def objects(self, folder, preset, program):
+        """The object files of a program that was built without a mutant; None where no parts of it can be built."""
+        return self._objects.get((folder, preset, program))
+
+    def build_part(self, folder, preset, part):
+        """Compiles what a part of a program needs. Returns an empty text, or what is wrong in a few lines."""
+        return _built(["ninja", "-j", str(self.builders), *part.targets], folder, folder / "build" / preset, part.file)
+
+    def link_part(self, folder, preset, part):
+        """Makes the program of a part that is compiled. Returns whether that is possible: with a mutant, it may need more."""
+        return processes.run(part.link, folder / "build" / preset, BUILD_SECONDS).status == 0
 
     def run(self, folder, preset, program, arguments, seconds):
         """Runs a program of a copy, for at most this time."""
@@ -73,6 +89,24 @@ class Project:
         if ended.status == -signal.SIGKILL:
             raise RuntimeError(f"something else ended {program}: is there too little memory for so many workers?")
         return ended
+
+
+def _built(command, folder, place, program):
+    """Runs a command that builds, in `place`. Returns an empty text, or what is wrong in a few lines."""
+    # Copies share what they compile: paths below the folder count as relative ones.
+    environment = {
+        "CCACHE_BASEDIR": str(folder),
+        "CCACHE_NOHASHDIR": "1",
+        "CCACHE_SLOPPINESS": "pch_defines,time_macros",
+    }
+    ended = processes.run(command, place, BUILD_SECONDS, environment)
+    if ended.status is None:
+        return f"the build of {program} was stopped after {BUILD_SECONDS} seconds"
+    if ended.status == 0:
+        return ""
+    _refuse_a_full_machine(program, ended.output)
+    lines = [line for line in ended.output.splitlines() if "error" in line.lower()] or ended.output.splitlines()
+    return "\n".join(line[:300] for line in lines[:LINES_OF_ERROR]) or f"exit status {ended.status}"
 
 
 def _refuse_a_full_machine(program, output):

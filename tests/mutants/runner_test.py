@@ -110,14 +110,31 @@ class Claims(Runner):
         self.assertEqual(result.outcome, Outcome.KILLED)
         self.assertIn("Sum.Multiplies", result.wrong[0])
 
-    def test_all_tests(self):
-        result = self.run_mutants(toy_mutant("minus", MINUS, ["Sum.*", "Sum.IsSmall"], passes=["Slow.*"]), all_tests=True)
+    def test_weighed(self):
+        result = self.run_mutants(toy_mutant("minus", MINUS, ["Sum.*", "Sum.IsSmall"], passes=["Slow.*"]), weigh=True)
         self.assertEqual(sorted(result.killers), ["Slow.Waits", "Sum.Adds"])
         self.assertEqual(result.wrong, ["Sum.IsSmall passes with the mutant", "Slow.Waits fails with the mutant"])
 
-    def test_all_tests_go_on_after_a_crash(self):
-        result = self.run_mutants(toy_mutant("crashes", "kill -SEGV $$"), all_tests=True)
+    def test_weighing_goes_on_after_a_crash(self):
+        result = self.run_mutants(toy_mutant("crashes", "kill -SEGV $$"), weigh=True)
         self.assertEqual(sorted(result.killers), ["Slow.Waits", "Sum.Adds", "Sum.TakesZero"])
+
+    def test_two_that_notice_it_are_enough(self):
+        minus = toy_mutant("minus", MINUS, ["Sum.Adds"])  # Slow.Waits notices it, too, and so it is idle no more
+        nine = toy_mutant("nine", "echo 9", ["Sum.Adds", "Sum.TakesZero"])
+        first, second = self.run_mutants(minus, nine, weigh=True)
+        self.assertEqual(sorted(first.killers), ["Slow.Waits", "Sum.Adds"])
+        self.assertEqual(sorted(second.killers), ["Sum.Adds", "Sum.TakesZero"])
+        last = [argument for _, argument, *_ in self.project.ran[-3:]]
+        self.assertEqual(sorted(last), [f"--gtest_filter=Sum.{name}" for name in ("Adds", "IsSmall", "TakesZero")])
+
+    def test_a_test_that_has_noticed_nothing_is_run_in_the_next_start(self):
+        minus = toy_mutant("minus", MINUS, ["Sum.Adds"])
+        self.run_mutants(minus, weigh=True)
+        self.project.ran.clear()
+        five = toy_mutant("five", "echo 5", ["Slow.Waits", "Sum.TakesZero"])
+        self.assertEqual(self.run_mutants(minus, five, weigh=True)[1].killers, ["Sum.TakesZero", "Slow.Waits"])
+        self.assertEqual(self.project.ran[-1][1], "--gtest_filter=Sum.IsSmall")
 
     def test_cheap_tests_come_first(self):
         self.run_mutants(toy_mutant("minus", MINUS))

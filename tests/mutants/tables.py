@@ -27,27 +27,27 @@ def seconds_of(test, times):
 
 
 def cheapest(results, times):
-    """(kills per second, kills, seconds, test), most first. A test whose time is below a millisecond counts as one."""
-    kills = collections.Counter(name for r in results for name in (r.killers if r.all_tests else [r.killed_by]) if name)
+    """(kills per second, kills, seconds, test), most first, of the first test that noticed each. A test whose time is below a millisecond counts as one."""
+    kills = collections.Counter(r.killed_by for r in results if r.killed_by)
     known = {name: seconds_of(name, times) for name in kills}
     found = [(kills[n] / max(t, 0.001), kills[n], t, n) for n, t in known.items() if t is not None]
     return sorted(found, key=lambda row: (-row[0], row[3]))[:TEN]
 
 
 def by_one_test(results):
-    """(mutant, test) of the mutants that exactly one test noticed. Only where all tests were run."""
-    return [(r.name, r.killers[0]) for r in results if r.all_tests and len(r.killers) == 1]
+    """(mutant, test) of the mutants that exactly one test noticed. Only where tests were weighed."""
+    return [(r.name, r.killers[0]) for r in results if r.weighed and len(r.killers) == 1]
 
 
 def idle(mutants, results, times):
-    """Tests that noticed no mutant, of all programs of these mutants. Only where all tests were run."""
+    """Tests that noticed no mutant, of all programs of these mutants. Only where tests were weighed."""
     used = {f"release/{program}" for mutant in mutants for program in mutant.programs}
     killing = {name for result in results for name in result.killers}
     return sorted(name for key in used for name in times.get(key, {}) if name not in killing)
 
 
 def as_json(mutants, results, times, run):
-    complete = bool(results) and all(result.all_tests for result in results)
+    complete = bool(results) and all(result.weighed for result in results)
     counted = {outcome.value: sum(result.outcome is outcome for result in results) for outcome in Outcome}
     table = {
         "run": run,
@@ -75,7 +75,7 @@ def as_markdown(mutants, results, times, run):
     lines += ["## The ten tests with most kills per second", ""]
     rows = [(f"`{test}`", kills, f"{s:.3f}", f"{rate:.0f}") for rate, kills, s, test in cheapest(results, times)]
     lines += _table(("test", "kills", "seconds", "kills per second"), rows)
-    lines += _of_all_tests(mutants, results, times)
+    lines += _of_weighed_tests(mutants, results, times)
     lines += ["## All mutants", ""]
     order = sorted(results, key=lambda r: (r.fine, r.file, r.name))
     rows = [
@@ -86,11 +86,11 @@ def as_markdown(mutants, results, times, run):
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
-def _of_all_tests(mutants, results, times):
-    if not results or not all(result.all_tests for result in results):
+def _of_weighed_tests(mutants, results, times):
+    if not results or not all(result.weighed for result in results):
         return [
-            "Each mutant was tried until the first test failed. `./run mutants --all-tests` runs all tests, and tells which",
-            "mutants only one test notices, and which tests notice none.",
+            "Each mutant was tried until the first test failed. `./run mutants --weigh-tests` tells which mutants only one test notices,",
+            "and which tests notice none.",
             "",
         ]
     killed, alone = sum(result.outcome.killed for result in results), by_one_test(results)

@@ -1,23 +1,41 @@
 """One mutant in one copy: apply it, build what sees it, run tests until one fails, take it back."""
 
+import threading
 import time
 
 import gtest
 from keep import Outcome, Result
 from project import arguments_of, is_test_program, most_seconds
 
-MOST_TIMEOUTS, MOST_CRASHES = 3, 20  # with all tests: a mutant that hangs in every test would take hours
+ENOUGH = 2  # tests that notice a mutant: with two of them, it does not depend on one alone
+MOST_TIMEOUTS, MOST_CRASHES = 3, 20  # of tests that have noticed nothing: a mutant that hangs in every test would take hours
 
 
 class DoesNotBuild(Exception):
     """What the compiler said."""
 
 
-def noticed(project, folder, preset, program, tests, seconds, fail_fast=False):
-    """Runs tests of a program that is built. Returns [(test, Outcome)] of those that do not pass, the tests that passed, and
-    the seconds that it took."""
+class Idle:
+    """The tests that have noticed no mutant so far: all but `busy` at the start."""
+
+    def __init__(self, busy=()):
+        self._busy, self._lock = set(busy), threading.Lock()
+
+    def of(self, times):
+        """Those of `times` (seconds by test)."""
+        with self._lock:
+            return {test: time for test, time in times.items() if test not in self._busy}
+
+    def remove(self, tests):
+        with self._lock:
+            self._busy.update(tests)
+
+
+def noticed(project, folder, preset, program, tests, seconds, fail_fast=False, started=None):
+    """Runs tests of a program that is built. `started`: the part of it that holds them, or the program itself. Returns
+    [(test, Outcome)] of those that do not pass, the tests that passed, and the seconds that it took."""
     arguments = arguments_of(program, tests) + (["--gtest_fail_fast"] if fail_fast and is_test_program(program) else [])
-    ended = project.run(folder, preset, program, arguments, seconds)
+    ended = project.run(folder, preset, started or program, arguments, seconds)
     if not is_test_program(program):
         name = f"{program} {tests[0]}"
         if ended.status == 0:
@@ -38,10 +56,11 @@ def _how_it_ended(status, otherwise=Outcome.KILLED):
     return Outcome.CRASH if status < 0 else otherwise
 
 
-def try_mutant(project, copy, times, mutant, all_tests=False):
-    """What becomes of the mutant. `copy` is up to date before and after. `times`: see Unchanged."""
+def try_mutant(project, copy, times, mutant, idle=None):
+    """What becomes of the mutant. `copy` is up to date before and after. `times`: see Unchanged. With `idle`, tests are run until
+    two notice it, and all of those in `idle`."""
     files = mutant.files or [""]
-    result = Result(mutant.name, files[0], mutant.title, Outcome.NO_PATCH, equivalent=mutant.equivalent, all_tests=all_tests)
+    result = Result(mutant.name, files[0], mutant.title, Outcome.NO_PATCH, equivalent=mutant.equivalent, weighed=idle is not None)
     take_back = copy.change(mutant)
     if isinstance(take_back, str):
         result.detail = take_back
@@ -49,7 +68,7 @@ def try_mutant(project, copy, times, mutant, all_tests=False):
     try:
         trial = _Trial(project, copy.folder, times, mutant, result)
         try:
-            trial.run_all() if all_tests else trial.run_until_noticed()
+            trial.run_until_noticed() if idle is None else trial.weigh_tests(idle)
         except DoesNotBuild as error:
             # Tests of another program may have noticed it before: even so, this is no mutant.
             result.outcome, result.killed_by, result.killers, result.detail = Outcome.NO_BUILD, "", [], str(error)
@@ -62,13 +81,13 @@ class _Trial:
     def __init__(self, project, folder, times, mutant, result):
         self.project, self.folder, self.times = project, folder, times
         self.mutant, self.result = mutant, result
-        self.built, self.passed, self.ends = set(), [], {}
+        self.built, self.part, self.tried, self.ends = set(), None, set(), {}
         self.result.outcome = Outcome.SURVIVED
 
-    def claims(self):
-        """(seconds, preset, program, tests, pattern) of what Fails names, the cheapest first."""
+    def claims(self, patterns):
+        """(seconds, preset, program, tests, pattern) of what the mutant's head names, the cheapest first."""
         found = []
-        for pattern in self.mutant.fails:
+        for pattern in patterns:
             for program in self.mutant.programs:
                 preset = self.mutant.preset
                 known = self.times.get(f"{preset}/{program}", {})
@@ -81,28 +100,35 @@ class _Trial:
         return sorted(found)
 
     def run_until_noticed(self):
-        tried = set()
-        for seconds, preset, program, tests, _ in self.claims():
+        for seconds, preset, program, tests, _ in self.claims(self.mutant.fails):
             if self._run(preset, program, tests, seconds, fail_fast=True):
                 return
-            tried.update((preset, program, test) for test in tests)
-        for program in self.mutant.programs:
-            times = self.times.get(f"release/{program}", {}) if is_test_program(program) else {}
-            rest = {test: time for test, time in times.items() if ("release", program, test) not in tried}
+        for program in filter(is_test_program, self.mutant.programs):
+            rest = self._not_tried(program)
             for group in gtest.groups(rest):
                 if self._run("release", program, group, sum(rest[test] for test in group), fail_fast=True):
                     if self.mutant.fails:
                         self.result.wrong.append("no test that Fails names noticed it: " + ", ".join(self.mutant.fails))
                     return
 
-    def run_all(self):
-        for seconds, preset, program, tests, _ in self.claims():
-            if preset != "release" or not is_test_program(program):
-                self._run(preset, program, tests, seconds)
-        for program in filter(is_test_program, self.mutant.programs):
-            times = self.times.get(f"release/{program}", {})
-            for group in gtest.groups(times):
-                self._run_whole_group(program, {test: times[test] for test in group})
+    def weigh_tests(self, idle):
+        """Runs what the head names; then other tests until enough have noticed the mutant; then those in `idle`."""
+        for seconds, preset, program, tests, _ in self.claims((*self.mutant.fails, *self.mutant.passes)):
+            self._run_whole_group(preset, program, dict.fromkeys(tests, seconds / len(tests)))
+        programs = list(filter(is_test_program, self.mutant.programs))
+        # What is built already comes first.
+        for choose in (self._not_tried_of_the_part, self._not_tried):
+            for program in programs:
+                rest = choose(program)
+                for group in gtest.groups(rest):
+                    if len(self.result.killers) < ENOUGH:
+                        self._run_whole_group("release", program, {test: rest[test] for test in group})
+        idle.remove(self.result.killers)
+        for program in programs:
+            rest = idle.of(self._not_tried(program))
+            for group in gtest.groups(rest):
+                self._run_whole_group("release", program, {test: rest[test] for test in group})
+        idle.remove(self.result.killers)
         for pattern in self.mutant.fails:
             names = [pattern, *(f"{program} {pattern}" for program in self.mutant.programs)]
             if not any(gtest.matching(name, self.result.killers) for name in names):
@@ -111,10 +137,22 @@ class _Trial:
             if failing := gtest.matching(pattern, self.result.killers):
                 self.result.wrong.append(f"{failing[0]} fails with the mutant")
 
-    def _run_whole_group(self, program, times):
+    def _not_tried(self, program):
+        times = self.times.get(f"release/{program}", {})
+        return {test: time for test, time in times.items() if ("release", program, test) not in self.tried}
+
+    def _not_tried_of_the_part(self, program):
+        """Those that the part holds which was built last."""
+        rest = self._not_tried(program)
+        if self.part is None or self.part[:2] != ("release", program):
+            return {}
+        objects = self.project.objects(self.folder, "release", program)
+        return {test: time for test, time in rest.items() if set(objects.of_tests([test])) <= set(self.part[2].targets)}
+
+    def _run_whole_group(self, preset, program, times):
         """Where a test ends the program, those after it are run again."""
         while times:
-            outcomes = self._run("release", program, list(times), sum(times.values()))
+            outcomes = self._run(preset, program, list(times), sum(times.values()))
             last = outcomes[-1] if outcomes else ("", Outcome.KILLED)
             if last[1] is Outcome.KILLED or last[0] not in times or self._ended_too_often(last[1]):
                 return
@@ -127,10 +165,11 @@ class _Trial:
 
     def _run(self, preset, program, tests, seconds, fail_fast=False):
         """Runs tests, and notes in the result which of them do not pass. Returns these."""
-        self._build(preset, program)
+        started = self._build(preset, program, tests)
         outcomes, self.passed, taken = noticed(
-            self.project, self.folder, preset, program, tests, most_seconds(seconds), fail_fast
+            self.project, self.folder, preset, program, tests, most_seconds(seconds), fail_fast, started
         )
+        self.tried.update((preset, program, test) for test in tests)
         self.result.test_seconds += taken
         for name, outcome in outcomes:
             if not self.result.killed_by:
@@ -139,12 +178,35 @@ class _Trial:
                 self.result.killers.append(name)
         return outcomes
 
-    def _build(self, preset, program):
+    def _build(self, preset, program, tests):
+        """Builds what holds the tests: a part of the program, or all of it. Returns the name of what is to be run."""
         if (preset, program) in self.built:
-            return
+            return program
         begin = time.monotonic()
+        try:
+            return self._build_part(preset, program, tests) or self._build_whole(preset, program)
+        finally:
+            self.result.build_seconds += time.monotonic() - begin
+
+    def _build_part(self, preset, program, tests):
+        """The name of the part; nothing where the whole program has to be built."""
+        objects, name = self.project.objects(self.folder, preset, program), f"{program}_part"
+        files = objects and objects.of_tests(tests)
+        if not files:
+            return None
+        part = objects.part(files, name)
+        if self.part == (preset, program, part):
+            return name
+        if error := self.project.build_part(self.folder, preset, part):
+            raise DoesNotBuild(error)
+        if not self.project.link_part(self.folder, preset, part):
+            return None
+        self.part = (preset, program, part)
+        return name
+
+    def _build_whole(self, preset, program):
         error = self.project.build(self.folder, preset, program)
-        self.result.build_seconds += time.monotonic() - begin
         self.built.add((preset, program))
         if error:
             raise DoesNotBuild(error)
+        return program

@@ -31,8 +31,9 @@ class Unchanged:
         self._lock = threading.Lock()
         self.times = kept["times"] if kept.get("sources") == digest else {}
 
-    def missing(self, mutants):
-        """(preset, program) of what must still be measured for these mutants, with the tests: None stands for all."""
+    @staticmethod
+    def wanted(mutants):
+        """(preset, program) of what these mutants need, with the tests: None stands for all."""
         wanted = {}
         for mutant in mutants:
             for program in mutant.programs:
@@ -40,7 +41,11 @@ class Unchanged:
                     wanted["release", program] = None
                 if mutant.preset != "release" or not is_test_program(program):  # slow, or no list: only what is needed
                     wanted.setdefault((mutant.preset, program), []).extend(mutant.fails)
-        return {key: tests for key, tests in wanted.items() if self._lacks(key, tests)}
+        return wanted
+
+    def missing(self, mutants):
+        """What of this must still be measured."""
+        return {key: tests for key, tests in self.wanted(mutants).items() if self._lacks(key, tests)}
 
     def _lacks(self, key, tests):
         known = self.times.get("/".join(key))
@@ -51,7 +56,7 @@ class Unchanged:
 
     def build(self, copy, preset, program):
         """Builds a program of a copy that is up to date. Raises Unusable if that fails."""
-        if error := self.project.build(copy.folder, preset, program):
+        if error := self.project.build_unchanged(copy.folder, preset, program):
             raise Unusable(f"{program} does not build without a mutant:\n{error}")
 
     def measure(self, copy, preset, program, tests):
@@ -65,7 +70,21 @@ class Unchanged:
             write_whole(self.file, json.dumps({"sources": self.digest, "times": self.times}, indent=1))
 
     def _tests(self, copy, preset, program, tests):
-        ended = self._run(copy, preset, program, list(dict.fromkeys(tests)) if tests else ["*"])
+        objects = self.project.objects(copy.folder, preset, program)
+        if tests is not None or objects is None:
+            return self._passed(copy, preset, program, tests)
+        # In the parts in which they are run with a mutant: what a part lacks must not be taken for a mistake.
+        found = {}
+        for file in objects.with_tests():
+            part = objects.part([file], f"{program}_part")
+            if not self.project.link_part(copy.folder, preset, part):
+                raise Unusable(f"{program} ({preset}): its part with {file} cannot be linked")
+            found.update(self._passed(copy, preset, program, None, f"{program}_part"))
+        return found
+
+    def _passed(self, copy, preset, program, tests, started=None):
+        """Seconds by test of those that pass; all must. `started`: the part of the program that is run."""
+        ended = self._run(copy, preset, started or program, list(dict.fromkeys(tests)) if tests else ["*"])
         output = gtest.read_output(ended.output)
         if output.failed or output.unfinished or not output.complete or output.racy:
             names = ", ".join(output.failed) or output.unfinished or output.racy or "its end"

@@ -102,24 +102,20 @@ def measure(project, unchanged, mutants, workers, say):
         say(text)
 
 
-def try_all(project, unchanged, mutants, workers, all_tests=False):
-    """Yields (mutant, result) as they come."""
+def try_all(project, unchanged, mutants, workers, idle=None):
+    """Yields (mutant, result) as they come. `idle`: see try_mutant."""
     line = Line(mutants)
 
     def work(number, put):
-        copy = project.copy(number)
+        copy, built = project.copy(number), set()
         copy.bring_up_to_date()
         if digest(copy.folder) != unchanged.digest:
             raise Unusable("the sources have changed since the start: start again")
         while mutant := line.next(number):
             # So that the time of the build is that of the mutant, and its errors are the mutant's.
-            _build_unchanged(project, copy, mutant.preset, mutant.programs[0])
-            put((mutant, try_mutant(project, copy, unchanged.times, mutant, all_tests)))
+            for key in unchanged.wanted([mutant]).keys() - built:
+                unchanged.build(copy, *key)
+                built.add(key)
+            put((mutant, try_mutant(project, copy, unchanged.times, mutant, idle)))
 
     yield from side_by_side(max(1, min(workers, len(mutants))), work)
-
-
-def _build_unchanged(project, copy, preset, program):
-    if project.path_of(copy.folder, preset, program) is None:
-        if error := project.build(copy.folder, preset, program):
-            raise RuntimeError(f"{program} does not build in {copy.folder} without a mutant:\n{error}")
