@@ -29,7 +29,8 @@ class Outcome(str, enum.Enum):
 
 @dataclasses.dataclass
 class Result:
-    """`killed_by`: the first test that noticed the mutant, `killers`: all that did. `weighed`: whether tests were run until two
+    """`killed_by`: the first test that noticed the mutant, `killers`: all that did. `noticed_after`: seconds
+    of builds and tests until the first of them. `weighed`: whether tests were run until two
     noticed it, and all that had noticed none of the mutants before. `wrong`: what is
     not as the mutant's head says, in sentences. `detail`: the first lines of the compiler or of git."""
 
@@ -44,6 +45,7 @@ class Result:
     detail: str = ""
     equivalent: str = ""
     weighed: bool = False
+    noticed_after: float = 0.0
     killers: list[str] = dataclasses.field(default_factory=list)
 
     @property

@@ -108,6 +108,7 @@ def described(arguments, seconds, results):
         "processor": processor(),
         "seconds_of_this_start": round(seconds, 1),
         "seconds_of_builds_and_tests": round(spent, 1),
+        "seconds_until_the_first_test_failed": round(sum(result.noticed_after for result in results), 1),
     }
 
 

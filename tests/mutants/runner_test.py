@@ -49,6 +49,7 @@ class Outcomes(Runner):
         result = self.run_mutants(toy_mutant("minus", MINUS, ["Sum.Adds"]))
         self.assertEqual((result.outcome, result.killed_by, result.wrong), (Outcome.KILLED, "Sum.Adds", []))
         self.assertTrue(result.fine)
+        self.assertTrue(0 < result.noticed_after <= result.build_seconds + result.test_seconds)
 
     def test_without_a_change_all_tests_pass(self):
         result = self.run_mutants(toy_mutant("empty", "echo $(($1 + $2)) # nothing"))

@@ -174,6 +174,7 @@ class _Trial:
         for name, outcome in outcomes:
             if not self.result.killed_by:
                 self.result.killed_by, self.result.outcome = name, outcome
+                self.result.noticed_after = self.result.build_seconds + self.result.test_seconds
             if name not in self.result.killers:
                 self.result.killers.append(name)
         return outcomes
