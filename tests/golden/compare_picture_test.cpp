@@ -48,6 +48,26 @@ TEST_F(ComparePicture, NoisierThanItClaimsIsFoundOut)
     EXPECT_GT(*result.noise_ratio, 1.0 + 3.0 * *result.noise_error);
 }
 
+// A denoiser took four fifths of the noise from every pixel. The mean of the picture is not known better
+// by that, so it is judged as a picture of its samples, and their noise is the least that is assumed.
+TEST_F(ComparePicture, QuieterThanItsSamplesCanBeIsJudgedByTheirNoise)
+{
+    const Image noisy = picture(16, 7);
+    Image quiet = noisy;
+    for (std::size_t i = 0; i < quiet.pixels.size(); ++i)
+        quiet.pixels[i] =
+            reference().mean.pixels[i] + 0.2 * (noisy.pixels[i] - reference().mean.pixels[i]);
+    const auto judged = [](const Image& image) {
+        return golden::compare_picture(reference(), image, 64.0, for_small_pictures());
+    };
+    const Comparison result = judged(quiet);
+    ASSERT_TRUE(result.noise_ratio);
+    EXPECT_LT(*result.noise_ratio, 0.1);
+    EXPECT_EQ(result.verdict, Verdict::inconclusive) << result.reason;
+    for (std::size_t c = 0; c < golden::channel_count; ++c)
+        EXPECT_GT(result.detectable[c], 0.8 * judged(noisy).detectable[c]);
+}
+
 TEST_F(ComparePicture, MoreSamplesShowMoreUpToTheLimitThatTheGoldenSets)
 {
     double previous = 1.0;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -121,6 +122,23 @@ TEST_F(Independence, IsNotDeniedToWrongPictures)
             for (int c = 0; c < 3; ++c) pixel[c] = std::pow(pixel[c], 1.0 / 2.2);
     });
     both([](Image& image) { std::reverse(image.pixels.begin(), image.pixels.end()); });
+}
+
+TEST_F(Independence, IsNotDeniedToPicturesOfDifferentBrightness)
+{
+    // They are far from each other, in whatever order the two of a pair are subtracted.
+    const auto times = [](double factor, Image image) {
+        for (Rgb& pixel : image.pixels) pixel *= factor;
+        return image;
+    };
+    const std::vector<Image> few = independent(2);
+    for (const double factor : {0.1, 10.0})
+        EXPECT_FALSE(shared_noise(reference(), std::vector{few[0], times(factor, few[1])}));
+    std::vector<Image> many = {picture(4096, 30), times(2.0, picture(4096, 31)),
+                               times(3.0, picture(4096, 32))};
+    EXPECT_FALSE(shared_noise(reference(), many));
+    std::reverse(many.begin(), many.end());
+    EXPECT_FALSE(shared_noise(reference(), many));
 }
 
 TEST_F(Independence, IsToldWherePicturesAreNotBlack)

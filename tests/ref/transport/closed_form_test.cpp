@@ -190,6 +190,42 @@ TEST(ClosedForm, LuminousSphereOverPlane) // map: weight-of-hit, weight-of-event
     EXPECT_EQ(batches[0][0].pixels[12 * width + 24].x == 0.0, expected.pixels[12 * width + 24].x != 0.0);
 }
 
+// A point of a sphere of radius r is chosen uniformly: at a distance of d >= 10 r its density is at
+// least d^2 / (4 pi r^2) >= 25 / pi per solid angle. A bounce has the density cos / pi. So a hit weighs
+// at most 1 / 26. A next event weighs 1 / (1 + q) with the quotient q of its two densities, and has the
+// value albedo / pi cos L over its own density, which is albedo L q: every weight is known to a few
+// roundings. Weights that favour the worse strategy add up to 1 as well; only the noise would show them.
+TEST(ClosedForm, ASmallSphereIsLeftToNextEvent) // map: weight-of-hit, weight-of-event
+{
+    scenes::Scene scene = transport_test::our_scene("sphere_over_plane");
+    auto& ball = scene.spheres.at(0);
+    ball.radius = 0.05;
+    ASSERT_GT(ball.center.z - ball.radius, 10.0 * ball.radius);
+    const Rgb radiance = std::get<scenes::Emission>(scene.materials[ball.material]).radiance;
+    const Rgb albedo = albedo_of_plane(scene);
+    const ref::World world(scene, 48, 32);
+    std::vector<ref::Contribution> contributions;
+    for (std::uint32_t i = 0; i < 48 * 32 * 64; ++i)
+        ref::trace_path(world, {.seed = 4, .max_edges = 2}, {4, i % (48 * 32), i}, contributions);
+    int hits = 0;
+    int events = 0;
+    for (const ref::Contribution& c : contributions) {
+        if (edges(c) == 1) continue;
+        if (c.s == 0) {
+            ++hits;
+            EXPECT_LE(c.weight, 1.0 / 26.0);
+        } else {
+            ++events;
+            for (int channel = 0; channel < 3; ++channel) {
+                const double q = c.value[channel] / (albedo[channel] * radiance[channel]);
+                ASSERT_NEAR(c.weight, 1.0 / (1.0 + q), 1e-14);
+            }
+        }
+    }
+    EXPECT_GT(hits, 20);
+    EXPECT_GT(events, 1000);
+}
+
 // The integrating sphere, with albedo rho and radius R, and a point light of intensity I inside.
 // Direct light varies as I cos / d^2. After one bounce, light is the same everywhere: rho^(k-1) I /
 // (pi R^2) over paths of k edges.

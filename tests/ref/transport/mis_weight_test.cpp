@@ -371,4 +371,47 @@ RC_GTEST_PROP(MisWeight, AnyPointsMakeAPathWhoseWeightsAreTheDefinitions, ())
     }
 }
 
+// Two neighbours at distances of h from the edge of two walls, where random points hardly ever are. The
+// connection of them has 1 / h^2 in its value, and the weight takes it away: it is about h^2, as the
+// densities of the other two strategies have 1 / h^2. With any limit of the distance in these densities,
+// the weights still add up to 1, but the connection is a firefly.
+TEST(MisWeight, VerticesThatNearlyCoincideHaveTheWeightsOfTheDefinitions) // map: area-conversion
+{
+    scenes::Scene scene;
+    scene.materials = {scenes::Lambertian{ref::Rgb(0.5)}};
+    scene.material_names = {"wall"};
+    scene.triangles = {{{ref::Vec3(0, -2, 0), ref::Vec3(4, 0, 0), ref::Vec3(0, 2, 0)}, 0},
+                       {{ref::Vec3(0, -2, 0), ref::Vec3(0, 2, 0), ref::Vec3(0, 0, 4)}, 0}};
+    scene.point_lights = {{ref::Vec3(1.0, 0.3, 1.2), ref::Rgb(1.0)}};
+    const double half = std::sqrt(0.5);
+    scene.camera =
+        scenes::Camera{ref::Vec3(2, 0, 2),       ref::Vec3(0, 1, 0),          ref::Vec3(-half, 0, half),
+                       ref::Vec3(half, 0, half), scenes::FovAxis::horizontal, 1.0};
+    const ref::World world(scene, width, height);
+    const PathOracle oracle(scene, width, height, false);
+    for (const double h : {0.1, 1e-2, 1e-3, 1e-4}) {
+        const double b = h / 4.0;
+        const auto floor = triangle_point(world.geometry, 0, {0.5 * (1.0 - b), b, 0.5 * (1.0 - b)});
+        const auto wall = triangle_point(world.geometry, 1, {0.5 * (1.0 - b), 0.5 * (1.0 - b), b});
+        const ref::Rgb one(1.0);
+        const std::vector<Vertex> y = {
+            source_vertex(world.emitters.all()[0], scene.point_lights[0].position, one),
+            surface_vertex(world, floor, one), surface_vertex(world, wall, one)};
+        const Vertex eye = eye_vertex(world);
+        const Judgement judgement = oracle.judge(places_of(y, {&eye, 1}));
+        ASSERT_LT(judgement.condition, worst_condition);
+        const ref::Path x = path_of(y, {&eye, 1});
+        for (std::size_t s = 0; s < x.size(); ++s) {
+            const double weight = mis_weight(world, {.roulette = false}, x, s);
+            const double expected = judgement.densities[s] > 0.0
+                                        ? expected_weight(judgement, s, ref::Heuristic::balance)
+                                        : 0.0;
+            EXPECT_NEAR(weight, expected, 4.0 * tolerance(judgement) * expected) << h << ", s = " << s;
+            if (s == 2) {
+                EXPECT_LT(weight, 50.0 * h * h);
+            }
+        }
+    }
+}
+
 } // namespace
