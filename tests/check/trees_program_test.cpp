@@ -1,6 +1,7 @@
 // `plumbline check-tree` and `plumbline check-builder` as a user runs them.
 
 #include "check/npy.h"
+#include "check/trees/check_tree.h"
 #include "check/trees/inputs.h"
 #include "check/trees/tree_files.h"
 #include "ref/trees/bvh.h"

@@ -80,18 +80,19 @@ def alone(place):
 
 class Kept:
     """The results of earlier starts for the same sources: a file, one line of JSON for each result, appended as they come.
-    Results for other sources go when the file is opened."""
+    Results for other sources go when the file is opened. `digests`: see sources.py."""
 
-    def __init__(self, path, sources):
-        self.path, self.sources, self.results, self._lock = path, sources, {}, threading.Lock()
+    def __init__(self, path, digests):
+        self.path, self.digests, self.results, self._lock = path, digests, {}, threading.Lock()
         lines = []
         for line in path.read_text().splitlines() if path.is_file() else []:
             try:
                 entry = json.loads(line)
                 result = Result(**dict(entry["result"], outcome=Outcome(entry["result"]["outcome"])))
+                current = entry["sources"] == digests.of_programs(entry["programs"])
             except (ValueError, KeyError, TypeError):
                 continue  # the runner was ended while it wrote this line, or is newer
-            if entry["sources"] == sources:
+            if current:
                 self.results[entry["mutant"], result.weighed] = result
                 lines.append(line + "\n")
         write_whole(path, "".join(lines))
@@ -101,7 +102,9 @@ class Kept:
         return found and dataclasses.replace(found, name=mutant.name, title=mutant.title)
 
     def add(self, mutant, result):
-        entry = {"mutant": mutant.digest, "sources": self.sources, "result": dataclasses.asdict(result)}
+        programs = list(mutant.programs)
+        sources = self.digests.of_programs(programs)
+        entry = {"mutant": mutant.digest, "programs": programs, "sources": sources, "result": dataclasses.asdict(result)}
         with self._lock:
             self.results[mutant.digest, result.weighed] = result
             with self.path.open("a") as file:

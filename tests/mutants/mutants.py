@@ -21,7 +21,7 @@ from machine import processor, processors
 from processes import Stopped
 from progress import Progress, line
 from project import Project
-from sources import digest
+from sources import Digests
 from trial import Idle
 from unchanged import Unchanged, Unusable
 
@@ -78,9 +78,9 @@ def try_chosen(project, mutants, jobs, weigh=False, again=False, out=None, statu
 
 
 def _try_alone(project, mutants, jobs, weigh, again, out, status):
-    sources = digest(project.root)
-    unchanged = Unchanged(project, sources)
-    kept = Kept(project.place / "results.jsonl", sources)
+    digests = Digests(project.root)
+    unchanged = Unchanged(project, digests)
+    kept = Kept(project.place / "results.jsonl", digests)
     known = {} if again else {m.name: r for m in mutants if (r := kept.find(m, weigh))}
     waiting = [m for m in mutants if m.name not in known]
     width = max((len(m.name) for m in mutants), default=0)

@@ -54,6 +54,27 @@ class Heads(unittest.TestCase):
         self.assertEqual(first.digest, toy_mutant("other_name", "echo 1", ["A.B"]).digest)
 
 
+class Digests(unittest.TestCase):
+    def test_tests_of_another_program_do_not_count(self):
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name)
+
+            def changed_by(file):
+                before = sources.Digests(root)
+                path = root / file
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(file)
+                after = sources.Digests(root)
+                programs = ("test_ref_trees", "test_cuda", "relaxed_refit")
+                return [p for p in programs if before.of_programs([p]) != after.of_programs([p])] + [before.of_all() != after.of_all()]
+
+            self.assertEqual(changed_by("tests/ref/trees/box_test.cpp"), ["test_ref_trees", True])
+            self.assertEqual(changed_by("tests/cuda/trees/box_test.cpp"), ["test_cuda", True])
+            self.assertEqual(changed_by("tests/ref/trees/boxes.h"), ["test_ref_trees", "test_cuda", "relaxed_refit", True])
+            self.assertEqual(changed_by("ref/box.cpp"), ["test_ref_trees", "test_cuda", "relaxed_refit", True])
+            self.assertEqual(changed_by("docs/box.cpp"), [False])
+
+
 class GoogleTest(unittest.TestCase):
     def test_output(self):
         output = gtest.read_output(

@@ -181,7 +181,7 @@ class Starts(Runner):
         file = self.project.place / "results.jsonl"
         whole = file.read_text()
         file.write_text(whole + whole[:40])
-        sources = mutants.digest(self.project.root)
+        sources = mutants.Digests(self.project.root)
         self.assertEqual(keep.Kept(file, sources).find(made, False).outcome, Outcome.KILLED)
         self.assertEqual(file.read_text(), whole)
 
@@ -195,7 +195,7 @@ class Starts(Runner):
         pid = self.project.root / "out/pid"
         pid.parent.mkdir()
         self.run_mutants(toy_mutant("minus", MINUS))
-        unchanged = mutants.Unchanged(self.project, mutants.digest(self.project.root))
+        unchanged = mutants.Unchanged(self.project, mutants.Digests(self.project.root))
 
         def interrupt(number, put):
             while not pid.exists():

@@ -28,13 +28,31 @@ def _below(root):
         yield from (pathlib.Path(folder, name).relative_to(root).as_posix() for name in files)
 
 
-def digest(root):
-    """A hash of all files that the test programs may depend on."""
-    total = hashlib.sha256()
-    for name in listed(root):
-        if not name.startswith(NO_SOURCES) and not name.endswith(".md"):
-            total.update(name.encode() + b"\0" + hashlib.sha256((root / name).read_bytes()).digest())
-    return total.hexdigest()[:16]
+class Digests:
+    """Hashes of the files at `root` on which test programs may depend."""
+
+    def __init__(self, root):
+        names = [name for name in listed(root) if not name.startswith(NO_SOURCES) and not name.endswith(".md")]
+        self._files = {name: hashlib.sha256((root / name).read_bytes()).digest() for name in names}
+
+    def of_all(self):
+        return self._total(self._files)
+
+    def of_programs(self, programs):
+        """Of all but the tests of other programs: a program is made of the files *_test.cpp of its own folder."""
+        own = [f"{program}_" for program in programs]
+        return self._total(name for name in self._files if not name.endswith("_test.cpp") or _program_of(name).startswith(tuple(own)))
+
+    def _total(self, names):
+        total = hashlib.sha256()
+        for name in names:
+            total.update(name.encode() + b"\0" + self._files[name])
+        return total.hexdigest()[:16]
+
+
+def _program_of(name):
+    """"test_ref_trees_" of tests/ref/trees/aabb_test.cpp."""
+    return "test_" + "_".join(name.split("/")[1:-1]) + "_"
 
 
 def apply(diff, folder, *options):

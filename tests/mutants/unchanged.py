@@ -1,6 +1,6 @@
 """The sources without a mutant: every test that is used must pass, and how long it takes decides when it is run.
 
-What was measured is kept in measured.json, with the hash of the sources.
+What was measured is kept in measured.json, with the hash of each program's sources.
 """
 
 import json
@@ -21,15 +21,19 @@ class Unchanged:
     """`times`: seconds of each test, by preset and program ("release/test_golden"). A program that is no test program has its
     arguments as tests."""
 
-    def __init__(self, project, digest):
-        self.project, self.digest = project, digest
+    def __init__(self, project, digests):
+        self.project, self.digests = project, digests
         self.file = project.place / "measured.json"
         try:
             kept = json.loads(self.file.read_text())
         except (OSError, ValueError):
             kept = {}
         self._lock = threading.Lock()
-        self.times = kept["times"] if kept.get("sources") == digest else {}
+        sources = kept.get("sources", {})
+        self.times = {key: times for key, times in kept.get("times", {}).items() if sources.get(key) == self._sources(key)}
+
+    def _sources(self, key):
+        return self.digests.of_programs([key.split("/")[1]])
 
     @staticmethod
     def wanted(mutants):
@@ -67,7 +71,8 @@ class Unchanged:
             found = {test: self._run(copy, preset, program, [test]).seconds for test in dict.fromkeys(tests)}
         with self._lock:
             self.times.setdefault(f"{preset}/{program}", {}).update(found)
-            write_whole(self.file, json.dumps({"sources": self.digest, "times": self.times}, indent=1))
+            sources = {key: self._sources(key) for key in self.times}
+            write_whole(self.file, json.dumps({"sources": sources, "times": self.times}, indent=1))
 
     def _tests(self, copy, preset, program, tests):
         objects = self.project.objects(copy.folder, preset, program)

@@ -5,7 +5,7 @@ import queue
 import threading
 
 import processes
-from sources import digest
+from sources import Digests
 from trial import try_mutant
 from unchanged import Unusable
 
@@ -109,7 +109,7 @@ def try_all(project, unchanged, mutants, workers, idle=None):
     def work(number, put):
         copy, built = project.copy(number), set()
         copy.bring_up_to_date()
-        if digest(copy.folder) != unchanged.digest:
+        if Digests(copy.folder).of_all() != unchanged.digests.of_all():
             raise Unusable("the sources have changed since the start: start again")
         while mutant := line.next(number):
             # So that the time of the build is that of the mutant, and its errors are the mutant's.

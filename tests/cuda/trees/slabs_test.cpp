@@ -101,4 +101,30 @@ RC_GTEST_PROP(WideSlabs, EnterEveryBoxThatTheRayPassesThroughAndNoneThatIsAbsent
     }
 }
 
+// The reciprocal of the smallest coordinate that is not replaced overflows, though no product with it
+// does. A child that is absent must not be entered because of the NaN that comes of it.
+TEST(WideSlabs, TinyDirectionsEnterNoAbsentChild)
+{
+    fast::WideNode node{};
+    const fast::Aabb box{Vec3(-0x1p-4f), Vec3(0x1p-4f)};
+    for (int c = 0; c < fast::most_children; ++c) {
+        const fast::Aabb of_child = c == 0 ? box : fast::empty_aabb();
+        for (int axis = 0; axis < 3; ++axis) {
+            node.planes[axis][c] = of_child.lower[axis];
+            node.planes[3 + axis][c] = of_child.upper[axis];
+        }
+    }
+    for (int exponent = -149; exponent <= 0; ++exponent) {
+        const float longest = std::ldexp(1.0f, exponent);
+        for (const float origin : {0.0f, 0x1p-30f, 0.0465f, -0.06f})
+            for (const float other : {0.0f, -0x1p-143f, 0x1p-126f}) {
+                const fast::Ray ray{Vec3(origin, 0.0f, 0.0f), infinity, Vec3(longest, other, 0.0f)};
+                fast::Lanes near;
+                const fast::LaneBits entered =
+                    fast::WideSlabs(fast::SlabRay(ray, box)).entered(node, infinity, near);
+                EXPECT_EQ(entered, 1u) << longest << " from " << origin << ", beside " << other;
+            }
+    }
+}
+
 } // namespace
