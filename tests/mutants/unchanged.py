@@ -29,7 +29,7 @@ class Unchanged:
         except (OSError, ValueError):
             kept = {}
         self._lock = threading.Lock()
-        sources = kept.get("sources", {})
+        sources = kept.get("digests", {})  # earlier versions had another key
         self.times = {key: times for key, times in kept.get("times", {}).items() if sources.get(key) == self._sources(key)}
 
     def _sources(self, key):
@@ -72,7 +72,7 @@ class Unchanged:
         with self._lock:
             self.times.setdefault(f"{preset}/{program}", {}).update(found)
             sources = {key: self._sources(key) for key in self.times}
-            write_whole(self.file, json.dumps({"sources": sources, "times": self.times}, indent=1))
+            write_whole(self.file, json.dumps({"digests": sources, "times": self.times}, indent=1))
 
     def _tests(self, copy, preset, program, tests):
         objects = self.project.objects(copy.folder, preset, program)
