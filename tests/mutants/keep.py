@@ -30,8 +30,8 @@ class Outcome(str, enum.Enum):
 @dataclasses.dataclass
 class Result:
     """`killed_by`: the first test that noticed the mutant, `killers`: all that did. `noticed_after`: seconds
-    of builds and tests until the first of them. `weighed`: whether tests were run until two
-    noticed it, and all that had noticed none of the mutants before. `wrong`: what is
+    of builds and tests until the first of them. `weighed`: whether more
+    tests were run than until it was noticed (trial.py, weigh_tests). `wrong`: what is
     not as the mutant's head says, in sentences. `detail`: the first lines of the compiler or of git."""
 
     name: str

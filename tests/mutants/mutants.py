@@ -38,7 +38,7 @@ def parser():
     made.add_argument("name", nargs="*", help="mutants (default: all)")
     made.add_argument("-j", "--jobs", type=int, default=processors(), help="workers (default: one per processor)")
     made.add_argument(
-        "--weigh-tests", action="store_true", help="run tests until two notice a mutant, and all that have noticed none before"
+        "--weigh-tests", action="store_true", help="run more tests of the same files: which mutants one test alone notices, which tests notice none"
     )
     made.add_argument("--generated", action="store_true", help="the sample of generated mutants in place of the patches")
     made.add_argument("--sample", type=int, metavar="N", help="with --generated: how many")

@@ -147,14 +147,6 @@ class Waiting(unittest.TestCase):
         self.assertIsNone(line.next(0))
         self.assertIsNone(line.next(1))
 
-    def test_mixed_mutants_are_one_group(self):
-        made = [toy_mutant(f"{file}{i}", f"echo {i}", file="ref/sum/sum.sh") for file in "ab" for i in range(4)]
-        line = Line(made, mixed=True)
-        order = [line.next(worker).name for worker in (0, 1, 0, 1, 0, 1, 0, 1)]
-        self.assertEqual(sorted(order), sorted(mutant.name for mutant in made))
-        self.assertNotEqual(order, [mutant.name for mutant in made])
-        self.assertEqual(order, [mutant.name for mutant in sorted(made, key=lambda mutant: mutant.digest)])
-
 
 class Tables(unittest.TestCase):
     times = {"release/test_toy": {"A.Cheap": 0.01, "A.Dear": 1.0, "A.Idle": 0.0}}

@@ -57,8 +57,8 @@ def _how_it_ended(status, otherwise=Outcome.KILLED):
 
 
 def try_mutant(project, copy, times, mutant, idle=None):
-    """What becomes of the mutant. `copy` is up to date before and after. `times`: see Unchanged. With `idle`, tests are run until
-    two notice it, and all of those in `idle`."""
+    """What becomes of the mutant. `copy` is up to date before and after. `times`: see Unchanged. With `idle`, the tests are
+    weighed (weigh_tests)."""
     files = mutant.files or [""]
     result = Result(mutant.name, files[0], mutant.title, Outcome.NO_PATCH, equivalent=mutant.equivalent, weighed=idle is not None)
     take_back = copy.change(mutant)
@@ -112,22 +112,19 @@ class _Trial:
                     return
 
     def weigh_tests(self, idle):
-        """Runs what the head names; then other tests until enough have noticed the mutant; then those in `idle`."""
-        for seconds, preset, program, tests, _ in self.claims((*self.mutant.fails, *self.mutant.passes)):
+        """Runs what the head names; then, of the tests in the same files, others until enough have noticed the mutant, and those
+        in `idle`. If none of these notices it, all tests follow."""
+        claims = self.claims((*self.mutant.fails, *self.mutant.passes))
+        programs = {(preset, program) for _, preset, program, *_ in claims}
+        for preset, program in programs:
+            self._build(preset, program, [test for _, *of, tests, _ in claims if of == [preset, program] for test in tests])
+        for seconds, preset, program, tests, _ in claims:
             self._run_whole_group(preset, program, dict.fromkeys(tests, seconds / len(tests)))
-        programs = list(filter(is_test_program, self.mutant.programs))
-        # What is built already comes first.
-        for choose in (self._not_tried_of_the_part, self._not_tried):
-            for program in programs:
-                rest = choose(program)
-                for group in gtest.groups(rest):
-                    if len(self.result.killers) < ENOUGH:
-                        self._run_whole_group("release", program, {test: rest[test] for test in group})
-        idle.remove(self.result.killers)
-        for program in programs:
-            rest = idle.of(self._not_tried(program))
-            for group in gtest.groups(rest):
-                self._run_whole_group("release", program, {test: rest[test] for test in group})
+        for preset, program in programs:
+            self._weigh_others(program, self._not_tried_in_the_files(preset, program), idle)
+        if not self.result.killers:
+            for program in filter(is_test_program, self.mutant.programs):
+                self._weigh_others(program, self._not_tried(program), idle)
         idle.remove(self.result.killers)
         for pattern in self.mutant.fails:
             names = [pattern, *(f"{program} {pattern}" for program in self.mutant.programs)]
@@ -137,17 +134,28 @@ class _Trial:
             if failing := gtest.matching(pattern, self.result.killers):
                 self.result.wrong.append(f"{failing[0]} fails with the mutant")
 
+    def _weigh_others(self, program, times, idle):
+        for group in gtest.groups(times):
+            if len(self.result.killers) < ENOUGH:
+                self._run_whole_group("release", program, {test: times[test] for test in group})
+        for group in gtest.groups(idle.of({test: time for test, time in times.items() if ("release", program, test) not in self.tried})):
+            self._run_whole_group("release", program, {test: times[test] for test in group})
+
     def _not_tried(self, program):
         times = self.times.get(f"release/{program}", {})
         return {test: time for test, time in times.items() if ("release", program, test) not in self.tried}
 
-    def _not_tried_of_the_part(self, program):
-        """Those that the part holds which was built last."""
-        rest = self._not_tried(program)
-        if self.part is None or self.part[:2] != ("release", program):
-            return {}
-        objects = self.project.objects(self.folder, "release", program)
-        return {test: time for test, time in rest.items() if set(objects.of_tests([test])) <= set(self.part[2].targets)}
+    def _not_tried_in_the_files(self, preset, program):
+        """Those in the files of the part that is built; all where there are no parts."""
+        rest = self._not_tried(program) if preset == "release" and is_test_program(program) else {}
+        objects = self.project.objects(self.folder, preset, program)
+        if objects is None or self.part is None:
+            return rest
+        return {test: time for test, time in rest.items() if self._covers(preset, program, objects.of_tests([test]))}
+
+    def _covers(self, preset, program, files):
+        """Whether the part that was built last holds the tests of these object files."""
+        return self.part is not None and self.part[:2] == (preset, program) and set(files) <= set(self.part[2].targets)
 
     def _run_whole_group(self, preset, program, times):
         """Where a test ends the program, those after it are run again."""
@@ -195,9 +203,9 @@ class _Trial:
         files = objects and objects.of_tests(tests)
         if not files:
             return None
-        part = objects.part(files, name)
-        if self.part == (preset, program, part):
+        if self._covers(preset, program, files):
             return name
+        part = objects.part(files, name)
         if error := self.project.build_part(self.folder, preset, part):
             raise DoesNotBuild(error)
         if not self.project.link_part(self.folder, preset, part):

@@ -13,15 +13,12 @@ from unchanged import Unusable
 class Line:
     """The mutants that wait. Those that change the same file and need the same program are a group: a worker tries them one
     after the other, since between them little is built. A worker that has no group takes one for which it has built the
-    program before, or else the largest; if none is left, it shares the largest of the others.
+    program before, or else the largest; if none is left, it shares the largest of the others."""
 
-    `mixed`: the mutants of a program are one group, in no order. Where tests that have noticed nothing are run with each mutant,
-    that is less work: mistakes of many kinds soon leave few such tests."""
-
-    def __init__(self, mutants, mixed=False):
+    def __init__(self, mutants):
         groups = collections.defaultdict(collections.deque)
-        for mutant in sorted(mutants, key=lambda mutant: mutant.digest) if mixed else mutants:
-            groups[mutant.preset, mutant.programs[0], "" if mixed else (mutant.files or [""])[0]].append(mutant)
+        for mutant in mutants:
+            groups[mutant.preset, mutant.programs[0], (mutant.files or [""])[0]].append(mutant)
         self.waiting, self.taken, self.built = dict(groups), {}, collections.defaultdict(set)
         self.lock = threading.Lock()
 
@@ -107,7 +104,7 @@ def measure(project, unchanged, mutants, workers, say):
 
 def try_all(project, unchanged, mutants, workers, idle=None):
     """Yields (mutant, result) as they come. `idle`: see try_mutant."""
-    line = Line(mutants, mixed=idle is not None)
+    line = Line(mutants)
 
     def work(number, put):
         copy, built = project.copy(number), set()
