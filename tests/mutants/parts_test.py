@@ -70,6 +70,8 @@ class Digests(unittest.TestCase):
 
             self.assertEqual(changed_by("tests/ref/trees/box_test.cpp"), ["test_ref_trees", True])
             self.assertEqual(changed_by("tests/cuda/trees/box_test.cpp"), ["test_cuda", True])
+            self.assertEqual(changed_by("tests/cuda/CMakeLists.txt"), ["test_cuda", True])
+            self.assertEqual(changed_by("tests/CMakeLists.txt"), ["test_ref_trees", "test_cuda", "relaxed_refit", True])
             self.assertEqual(changed_by("tests/ref/trees/boxes.h"), ["test_ref_trees", "test_cuda", "relaxed_refit", True])
             self.assertEqual(changed_by("ref/box.cpp"), ["test_ref_trees", "test_cuda", "relaxed_refit", True])
             self.assertEqual(changed_by("docs/box.cpp"), [False])

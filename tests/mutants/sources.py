@@ -39,15 +39,20 @@ class Digests:
         return self._total(self._files)
 
     def of_programs(self, programs):
-        """Of all but the tests of other programs: a program is made of the files *_test.cpp of its own folder."""
-        own = [f"{program}_" for program in programs]
-        return self._total(name for name in self._files if not name.endswith("_test.cpp") or _program_of(name).startswith(tuple(own)))
+        """Of all but the tests of other programs: a program is made of the files *_test.cpp of its own folder. The list of them
+        is in the folder's CMakeLists.txt."""
+        own = tuple(f"{program}_" for program in programs)
+        return self._total(name for name in self._files if not _is_of_one_program(name) or _program_of(name).startswith(own))
 
     def _total(self, names):
         total = hashlib.sha256()
         for name in names:
             total.update(name.encode() + b"\0" + self._files[name])
         return total.hexdigest()[:16]
+
+
+def _is_of_one_program(name):
+    return name.endswith("_test.cpp") or (name.startswith("tests/") and name.count("/") > 1 and name.endswith("/CMakeLists.txt"))
 
 
 def _program_of(name):
