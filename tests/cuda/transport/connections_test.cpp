@@ -13,7 +13,7 @@ namespace {
 using fast::any_needs;
 using scenes::Vec3;
 
-constexpr fast::PathOptions options{1, 5, fast::Heuristic::balance};
+constexpr fast::PathOptions path_options{1, 5, fast::Heuristic::balance};
 
 /// A scene in the memory of the host.
 struct World {
@@ -72,8 +72,8 @@ TEST(Connections, OfAnEyeWithTheWallThatItIsOnDoNotExist)
                 fast::CandidateOf<float> candidate;
                 std::uint32_t pixel = 0;
                 if (fast::light_image_candidate<any_needs, fast::Integrator::light, float>(
-                        world.view, options, 2, point, side * point.normal, 1.0f, 1.0f, fast::Vec3(1.0f),
-                        true, candidate, pixel))
+                        world.view, path_options, 2, point, side * point.normal, 1.0f, 1.0f,
+                        fast::Vec3(1.0f), true, candidate, pixel))
                     ++count;
             }
         });
@@ -99,7 +99,7 @@ TEST(Connections, OfALightWithTheWallThatItIsOnDoNotExist)
                                         .brackets = {1, 1, 1, 1, 1}};
                 fast::CandidateOf<float> candidate;
                 if (fast::next_event_candidate<any_needs, fast::Integrator::path, float>(
-                        world.view, options, {{0.5f, 0.5f, 0.5f, 0.5f}}, z, true, candidate))
+                        world.view, path_options, {{0.5f, 0.5f, 0.5f, 0.5f}}, z, true, candidate))
                     ++count;
             }
         });
@@ -125,8 +125,8 @@ TEST(Connections, EndAboveALightVertexTheHigherTheFartherItIs)
         z.facing = fast::Vec3(-0.6f, 0, -0.8f);
         z.alpha = fast::Vec3(1.0f);
         fast::CandidateOf<float> candidate;
-        ASSERT_TRUE((fast::inner_connection_candidate<any_needs, float>(world.view, options, 2, y, z,
-                                                                        true, candidate)));
+        ASSERT_TRUE((fast::inner_connection_candidate<any_needs, float>(world.view, path_options, 2, y,
+                                                                        z, true, candidate)));
         const double end =
             static_cast<double>(candidate.ray.origin.z) + static_cast<double>(candidate.ray.direction.z);
         // The sum in floats is rounded by another u of the distance here.
