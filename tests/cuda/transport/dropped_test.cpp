@@ -1,8 +1,10 @@
 // Contributions that are not finite never reach a film, and their number does not depend on threads.
 
+#include "cuda/launch/batch_renderer.h"
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/transport/film_sink.h"
 #include "tests/cuda/parallel/interleaved_executor.h"
+#include "tests/ref/transport/scene_files.h"
 
 #include <gtest/gtest.h>
 
@@ -72,6 +74,40 @@ TEST(DroppedContributions, NoneIsLostWhoeverComesBetween)
             4, [&](std::uint32_t ready) { return static_cast<std::uint32_t>(random()) % ready; });
         expect_all_dropped(executor);
     }
+}
+
+/// An executor on which each pixel of the first batch has a contribution of strategy (2, 3) that is not
+/// finite. Later batches have none at all.
+struct DroppingExecutor : fast::SerialExecutor {
+    static void wait() {}
+};
+
+template <fast::Integrator integrator>
+void launch_samples(DroppingExecutor& /*executor*/, fast::Needs /*needs*/,
+                    const fast::SceneInMemory& /*scene*/, const fast::SampleJob& job)
+{
+    if (job.launch.first_sample > 0) return;
+    for (std::uint32_t i = 0; i < job.launch.pixels; ++i)
+        fast::FilmSink(job.film, job.launch.first_pixel + i).add(2, 3, fast::Rgb(nan), 1.0f);
+}
+
+TEST(DroppedContributions, AreReportedOnceWithThePlaceOfTheFirst)
+{
+    fast::HostMemory memory;
+    DroppingExecutor executor;
+    images::RenderOptions options;
+    options.integrator = fast::Integrator::path;
+    fast::BatchRenderer renderer(memory, executor, {8, 8, std::size_t{1} << 30},
+                                 transport_test::our_scene("point_over_plane"), 4, 5, options, {});
+    std::vector<images::Dropped> reports;
+    images::Monitor monitor;
+    monitor.dropped = [&](const images::Dropped& dropped) { reports.push_back(dropped); };
+    for (const std::uint64_t number : {0, 1}) (void)renderer.render_batch(number, monitor);
+    ASSERT_EQ(reports.size(), 1u);
+    EXPECT_EQ(reports[0].count, 20u);
+    EXPECT_EQ(reports[0].pixel, 0u);
+    EXPECT_EQ(reports[0].s, 2);
+    EXPECT_EQ(reports[0].t, 3);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // The fast path chooses the same emitter as the reference for every number, and no emitter is starved.
 
 #include "cuda/launch/renderer.h"
+#include "cuda/transport/emitter.h"
 #include "cuda/transport/emitter_choice.h"
 #include "ref/transport/emitter_choice.h"
 #include "tests/ref/transport/emitter_powers.h"
@@ -10,8 +11,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace {
 
@@ -23,6 +26,27 @@ RC_GTEST_PROP(EmitterChoiceInFloat, HasTheBordersOfTheReference, ()) // map: emi
     if (sums.empty()) return;
     const std::vector<double> borders = ref::choice_borders(powers);
     RC_ASSERT(std::vector<double>(sums.begin(), sums.end()) == borders);
+}
+
+// The borders are where the choice changes; 0 is one where the first emitter has no power.
+TEST(EmitterChoiceInFloat, IsTheFirstWhoseSumExceedsTheNumber)
+{
+    for (const std::vector<double>& powers :
+         std::vector<std::vector<double>>{{1}, {0, 1}, {1, 0}, {0, 0, 2, 0, 1}, {3, 0, 0, 0, 1, 2, 0}}) {
+        const std::vector<float> sums = fast::summed_probabilities(powers);
+        fast::SceneView<fast::Needs{}> scene{};
+        scene.cumulative = sums;
+        std::vector<float> numbers{0.0f};
+        for (const float border : sums) {
+            if (border > 0.0f) numbers.push_back(border - 0x1p-24f);
+            if (border < 1.0f) numbers.push_back(border);
+        }
+        for (const float u : numbers) {
+            const auto first = std::ranges::upper_bound(sums, u) - sums.begin();
+            EXPECT_EQ(fast::choose_emitter(scene, u), static_cast<std::uint32_t>(first)) << u;
+            EXPECT_GT(powers[static_cast<std::size_t>(first)], 0.0) << u;
+        }
+    }
 }
 
 TEST(EmitterChoiceInFloat, RefusesWhatItCannotShareOut)

@@ -4,6 +4,7 @@
 // side of every surface that the end lies on, or near.
 
 #include "cuda/scene/scene_arrays.h"
+#include "cuda/transport/contacts.h"
 #include "cuda/trees/clearance.h"
 #include "scenes/contacts.h"
 #include "tests/cuda/transport/touching_scenes.h"
@@ -20,17 +21,12 @@ namespace {
 using fast_transport_test::Touching;
 using scenes::Vec3;
 
-/// As in kernels (leave_end).
 Vec3 origin_of(const fast::SceneArrays& arrays, const fast::Vec3& position,
                const fast::EndContacts& contacts, const fast::Vec3& direction, float length)
 {
-    fast::Vec3 origin = position;
-    for (std::uint32_t i = 0; i < contacts.plane_count; ++i) {
-        const fast::ContactPlane& plane = arrays.contact_planes[contacts.first_plane + i];
-        const float clearance = std::max(0.0f, plane.clearance + fast::clearance_per_length * length);
-        origin += (glm::dot(direction, plane.normal) < 0 ? -clearance : clearance) * plane.push;
-    }
-    return Vec3(origin);
+    fast::SceneView<fast::any_needs> view{};
+    view.contact_planes = arrays.contact_planes;
+    return Vec3(fast::leave_end(view, position, contacts, direction, length));
 }
 
 /// The distance of `p` from the triangle's plane in float, along its normal.
@@ -111,6 +107,67 @@ RC_GTEST_PROP(EndsOfPaths, BeginTheirRaysOnTheirSideOfEverySurface, ())
     }
 }
 
+// An end near a surface whose distance suffices for a ray: only a long segment needs more.
+TEST(EndsOfPaths, AreNotMovedTowardsASurface)
+{
+    fast::SceneArrays arrays;
+    arrays.contact_planes = {{fast::Vec3(0.0f), fast::Vec3(0, 0, 1), -fast::clearance_per_length}};
+    const fast::EndContacts contacts{0, 1, 0, 0};
+    const auto height = [&](float length) {
+        return origin_of(arrays, fast::Vec3(0.0f), contacts, fast::Vec3(0, 0.6f, 0.8f), length).z;
+    };
+    EXPECT_EQ(height(0.0f), 0.0);
+    EXPECT_EQ(height(0.5f), 0.0);
+    EXPECT_EQ(height(3.0f), 2.0 * static_cast<double>(fast::clearance_per_length));
+}
+
+/// A scene with a material for triangles, and nothing else.
+scenes::Scene empty_scene()
+{
+    scenes::Scene scene;
+    scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
+    scene.material_names = {"wall"};
+    return scene;
+}
+
+TEST(EndsOfPaths, InAnObliqueEdgeAreMovedFromOneWallParallelToTheOthers)
+{
+    for (const double angle : {0.2, 1.0, 2.5}) {
+        scenes::Scene scene = empty_scene();
+        const Vec3 along(1, 0, 0);
+        const Vec3 up(0, std::sin(angle), std::cos(angle));
+        scene.triangles = {{{-along, along, Vec3(0, 0, 1)}, 0},
+                           {{-along, along, up}, 0},
+                           {{Vec3(0.0), Vec3(0.5, 1, 0), Vec3(0.3, 0, 1)}, 0}};
+        scene.point_lights = {{Vec3(0.0), scenes::Rgb(1.0)}};
+        const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
+        ASSERT_EQ(arrays.contact_planes.size(), 3u);
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j)
+                EXPECT_NEAR(glm::dot(arrays.contact_planes[i].push, arrays.contact_planes[j].normal),
+                            i == j ? 1 : 0, 1e-5)
+                    << "angle " << angle << ", planes " << i << ", " << j;
+    }
+}
+
+// Of two planes that are nearly the same, that on which the end lies: the light passes it on both
+// sides.
+TEST(EndsOfPaths, AreOnASurfaceRatherThanNearAnother)
+{
+    for (const double height : {-1e-8, 1e-8}) {
+        scenes::Scene scene = empty_scene();
+        const Vec3 a(-1, -1, 0);
+        const Vec3 b(1, -1, 0);
+        const Vec3 c(0, 1, 0);
+        const Vec3 by(0, 0, height);
+        scene.triangles = {{{a + by, b + by, c + by}, 0}, {{a, b, c}, 0}};
+        scene.point_lights = {{Vec3(0.0), scenes::Rgb(1.0)}};
+        const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
+        ASSERT_EQ(arrays.contact_planes.size(), 1u);
+        EXPECT_EQ(arrays.contact_planes[0].normal, fast::Vec3(0, 0, 1)) << height;
+    }
+}
+
 TEST(EndsOfPaths, OfAnOrdinarySceneTouchNothing)
 {
     scenes::Scene scene = fast_transport_test::touching_scene(Touching::point_light_on_wall, 1, 0.01);
@@ -139,13 +196,23 @@ TEST(CoincidentSurfaces, KeepTheOrderThatOnlyDoublesResolve)
     EXPECT_TRUE(fast::scene_arrays(apart, true).coincident.empty());
 }
 
+TEST(CoincidentSurfaces, KeepTheOrderOfSpheres)
+{
+    scenes::Scene scene = empty_scene();
+    scene.spheres = {{Vec3(0.0), 1, 0}, {Vec3(0.0), 1 + 1e-9, 0}};
+    const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
+    ASSERT_EQ(arrays.coincident.size(), 2u);
+    EXPECT_EQ(arrays.coincident[0].primitive, 1u);
+    EXPECT_EQ(arrays.coincident[0].side, 1); // the larger one is outside the smaller one
+    EXPECT_EQ(arrays.coincident[1].primitive, 0u);
+    EXPECT_EQ(arrays.coincident[1].side, -1);
+}
+
 // Coincident surfaces may be as small as the distance up to which surfaces count as near.
 TEST(CoincidentSurfaces, AreFoundHoweverSmall)
 {
     for (const double size : {1.0, 1e-2, 1e-4, 1e-5}) {
-        scenes::Scene scene;
-        scene.materials = {scenes::Lambertian{scenes::Rgb(0.5)}};
-        scene.material_names = {"wall"};
+        scenes::Scene scene = empty_scene();
         const Vec3 at(0.3, 0.2, 0.4);
         const scenes::Triangle small{{at, at + Vec3(size, 0, 0), at + Vec3(0, size, 0)}, 0};
         scene.triangles = {{{Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0)}, 0}, small, small};

@@ -7,7 +7,9 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
+#include <vector>
 
 namespace {
 
@@ -65,6 +67,41 @@ TEST(RayPairs, StayInAClosedRoom)
         EXPECT_NE(second.primitive, fast::no_primitive) << i; // out of the sphere, or through it
     }
     EXPECT_GT(onto_sphere, 100);
+}
+
+// A point in an edge may be rounded to the far side of the second wall. So points are moved off edges.
+TEST(RayPairs, StayInAClosedRoomWhenTheyMeetItsEdges)
+{
+    scenes::Scene scene = room();
+    scene.spheres.clear();
+    // Turned and tilted, so that no coordinate is exact and no edge has a right angle.
+    for (scenes::Triangle& triangle : scene.triangles)
+        for (scenes::Vec3& v : triangle.vertices)
+            v = v.x * scenes::Vec3(0.8, 0.48, 0.36) + v.y * scenes::Vec3(-0.6, 0.64, 0.48) +
+                (v.z + v.y) * scenes::Vec3(0.0, -0.6, 0.8);
+    const fast::SceneArrays arrays = fast::scene_arrays(scene, true);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    std::vector<fast::RayPair> pairs(1000);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto& v = arrays.triangles[i % arrays.triangles.size()].vertices;
+        const float along = uniform(random);
+        const float off = std::pow(10.0f, -5.0f - 4.0f * uniform(random));
+        const fast::Vec3 direction =
+            v[0] + along * (v[1] - v[0]) + off * (v[2] - v[0]); // from the middle
+        pairs[i].first = {fast::Vec3(0.0f), std::numeric_limits<float>::infinity(), direction};
+        pairs[i].onward = fast::Vec3(uniform(random), uniform(random), uniform(random)) - 0.5f;
+    }
+    auto hits = fast::trace_ray_pairs(arrays, pairs);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        ASSERT_NE(hits[i].first.primitive, fast::no_primitive) << i;
+        const fast::Vec3& normal = arrays.surfaces[hits[i].first.primitive].normal;
+        if (glm::dot(pairs[i].onward, normal) * glm::dot(pairs[i].first.direction, normal) > 0.0f)
+            pairs[i].onward = -pairs[i].onward; // back into the room
+    }
+    hits = fast::trace_ray_pairs(arrays, pairs);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        EXPECT_NE(hits[i].second.primitive, fast::no_primitive) << i;
 }
 
 TEST(RayPairs, OfNothingAreNothing)

@@ -185,15 +185,18 @@ TEST(BatchRenderer, AddsUpAllContributionsOfAllSamples) // map: splat
 
 TEST(BatchRenderer, ABatchDoesNotDependOnThoseBefore)
 {
-    auto options = short_paths(Integrator::bdpt);
-    options.strategies = images::StrategyPictures::weighted;
-    const auto renderer = fast::host_renderer(our_scene("cornell_glass"), width, height, options, 1);
-    const images::Batch first = *renderer->render_batch(0, {});
-    const images::Batch second = *renderer->render_batch(1, {});
-    EXPECT_FALSE(first.mean == second.mean);
-    const images::Batch again = *renderer->render_batch(0, {});
-    EXPECT_TRUE(again.mean == first.mean);
-    EXPECT_TRUE(again.strategies == first.strategies);
+    for (const bool deterministic : {false, true}) {
+        auto options = short_paths(Integrator::bdpt);
+        options.strategies = images::StrategyPictures::weighted;
+        options.deterministic = deterministic;
+        const auto renderer = fast::host_renderer(our_scene("cornell_glass"), width, height, options, 1);
+        const images::Batch first = *renderer->render_batch(0, {});
+        const images::Batch second = *renderer->render_batch(1, {});
+        EXPECT_FALSE(first.mean == second.mean);
+        const images::Batch again = *renderer->render_batch(0, {});
+        EXPECT_TRUE(again.mean == first.mean);
+        EXPECT_TRUE(again.strategies == first.strategies);
+    }
 }
 
 TEST(BatchRenderer, WeightedLayersAddUpToThePicture)
@@ -202,8 +205,12 @@ TEST(BatchRenderer, WeightedLayersAddUpToThePicture)
         auto options = short_paths(Integrator::bdpt);
         options.strategies = images::StrategyPictures::weighted;
         options.deterministic = deterministic;
-        const auto renderer = fast::host_renderer(our_scene("cornell_glass"), width, height, options, 2);
-        const images::Batch batch = *renderer->render_batch(0, {});
+        fast::HostMemory memory;
+        fast::HostThreads executor(2, 1);
+        // Three launches, of which two do not begin at pixel 0.
+        fast::BatchRenderer renderer(memory, executor, {50, 50, std::size_t{1} << 30},
+                                     our_scene("cornell_glass"), width, height, options, {});
+        const images::Batch batch = *renderer.render_batch(0, {});
         // (s, t) of 1 to 5 edges.
         EXPECT_EQ(batch.strategies.size(), 2u + 3 + 4 + 5 + 6);
         for (std::size_t i = 0; i < batch.mean.pixels.size(); ++i) {
@@ -285,6 +292,23 @@ TEST(BatchRenderer, RefusesOptionsThatContradictEachOther)
     options.max_edges = images::most_edges_of_strategies + 1;
     options.strategies = images::StrategyPictures::weighted;
     EXPECT_THROW(fast::host_renderer(scene, 8, 8, options, 1), std::invalid_argument);
+}
+
+// Longer walks than memory is needed for have a probability of at most 2^-24. The bounces that roulette
+// spares end no walk.
+TEST(LightVertices, HaveMemoryForEveryWalkThatMayOccur)
+{
+    constexpr int spared = fast::bounces_without_roulette + 1; // the vertices that are always reached
+    fast::SceneArrays arrays;
+    const auto most = [&](float survival, int max_edges) {
+        arrays.largest_survival = survival;
+        return fast::most_light_vertices(arrays, max_edges);
+    };
+    EXPECT_EQ(most(0.0f, 1000), spared);
+    EXPECT_EQ(most(0x1p-24f, 1000), spared + 1);
+    EXPECT_EQ(most(0.5f, 1000), spared + 24);
+    EXPECT_EQ(most(0.5f, spared + 23), spared + 23);
+    EXPECT_EQ(most(1.0f, 1000), 1000);
 }
 
 TEST(BatchRenderer, ASceneWithoutLightIsBlack)
