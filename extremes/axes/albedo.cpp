@@ -34,7 +34,7 @@ scenes::Scene white_room(double albedo)
 }
 
 /// Pixels by a renderer, in units of the direct light.
-std::vector<double> rendered(Format wing, double absorbed, std::uint64_t seed)
+std::vector<double> rendered(Wing wing, double absorbed, std::uint64_t seed)
 {
     images::RenderOptions options;
     options.integrator = images::Integrator::path;
@@ -88,9 +88,9 @@ void judge_albedo(const std::vector<double>& pixels, double absorbed, Tally& tal
     tally.add(0.0);
 }
 
-using Walks = std::vector<double> (*)(double absorbed, std::uint64_t seed);
+using Walks = std::function<std::vector<double>(double absorbed, std::uint64_t seed)>;
 
-auto albedo_cases(Walks walks, double (*bounces)(double absorbed))
+auto albedo_cases(const Walks& walks, double (*bounces)(double absorbed))
 {
     return [walks, bounces](double absorbed, Random& random, int cases, Tally& tally) {
         for (int i = 0; i < cases; ++i) {
@@ -133,25 +133,23 @@ Axis albedo_axis()
     axis.values = powers_of_ten(-6, -2, 0.5);
     for (const double value : {0.02, 0.025, 0.03, 0.05, 0.1, 0.2, 0.5}) axis.values.push_back(value);
     axis.most_cases = 15;
-    axis.methods = {
-        {"ref", Format::binary64,
-         albedo_cases([](double absorbed,
-                         std::uint64_t seed) { return rendered(Format::binary64, absorbed, seed); },
-                      at_survival<999>)},
-        {"host", Format::binary32,
-         albedo_cases([](double absorbed,
-                         std::uint64_t seed) { return rendered(Format::binary32, absorbed, seed); },
-                      at_survival<999>)},
-        {"survival min(0.95, albedo)", Format::binary64,
-         albedo_cases(
-             [](double absorbed, std::uint64_t seed) {
-                 return simulated(absorbed, std::min(0.95, 1 - absorbed), seed);
-             },
-             at_survival<950>)},
+    for (const Wing wing : wings())
+        axis.methods.push_back(
+            {name_of(wing), format_of(wing),
+             albedo_cases(
+                 [wing](double absorbed, std::uint64_t seed) { return rendered(wing, absorbed, seed); },
+                 at_survival<999>)});
+    axis.methods.push_back({"survival min(0.95, albedo)", Format::binary64,
+                            albedo_cases(
+                                [](double absorbed, std::uint64_t seed) {
+                                    return simulated(absorbed, std::min(0.95, 1 - absorbed), seed);
+                                },
+                                at_survival<950>)});
+    axis.methods.push_back(
         {"survival = albedo", Format::binary64,
          albedo_cases(
              [](double absorbed, std::uint64_t seed) { return simulated(absorbed, 1 - absorbed, seed); },
-             at_survival<1000>)}};
+             at_survival<1000>)});
     // No error, and 6 standard errors of 64 independent means: exceeded in one case of 10^7.
     for (const char* method : {"ref", "host"})
         axis.limits.push_back({method, 0.001, [](double) { return 0.0; }, 1e-4, Failure::biased,

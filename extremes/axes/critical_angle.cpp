@@ -80,11 +80,14 @@ Axis critical_angle_axis()
     axis.values = powers_of_ten(-18, -1, 0.5);
     axis.values.back() = axis.ordinary;
     axis.methods = glass_methods(near_critical_angle);
-    axis.methods.insert(axis.methods.begin() + 2,
-                        {transmission_method("ref transmitted", Format::binary64, glass_of_reference,
-                                             near_critical_angle),
-                         transmission_method("host transmitted", Format::binary32, glass_of_fast_path,
-                                             near_critical_angle)});
+    std::vector<Method> transmitted;
+    for (const Wing wing : wings())
+        transmitted.push_back(transmission_method(
+            name_of(wing) + " transmitted", format_of(wing),
+            [wing](const GlassInput& input) { return glass_by(wing, input); }, near_critical_angle));
+    // Behind the wings, and before the tricks.
+    axis.methods.insert(axis.methods.begin() + static_cast<std::ptrdiff_t>(transmitted.size()),
+                        transmitted.begin(), transmitted.end());
     const std::string because = "the square of cos_t is 2 sqrt(n^2 - 1) times the parameter, and the "
                                 "difference of numbers near 1 with an error of 12 to 29 roundings";
     axis.limits = {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int samples_of_emitter = 256; // of the one pixel
 
-auto emitter_size_cases(Format wing, images::Integrator integrator)
+auto emitter_size_cases(Wing wing, images::Integrator integrator)
 {
     return [=](double size, Random& random, int cases, Tally& tally) {
         for (int i = 0; i < cases; ++i) {
@@ -92,12 +92,12 @@ Axis emitter_size_axis()
     axis.logarithmic = true;
     axis.values = powers_of_ten(-20, -2, 0.5);
     axis.most_cases = 1000;
-    axis.methods = {
-        {"ref, path", Format::binary64, emitter_size_cases(Format::binary64, images::Integrator::path)},
-        {"ref, bdpt", Format::binary64, emitter_size_cases(Format::binary64, images::Integrator::bdpt)},
-        {"host, path", Format::binary32, emitter_size_cases(Format::binary32, images::Integrator::path)},
-        {"host, bdpt", Format::binary32,
-         emitter_size_cases(Format::binary32, images::Integrator::bdpt)}};
+    for (const Wing wing : wings()) {
+        axis.methods.push_back({name_of(wing) + ", path", format_of(wing),
+                                emitter_size_cases(wing, images::Integrator::path)});
+        axis.methods.push_back({name_of(wing) + ", bdpt", format_of(wing),
+                                emitter_size_cases(wing, images::Integrator::bdpt)});
+    }
     for (Method& trick : shadow_tricks(samples_of_emitter)) axis.methods.push_back(std::move(trick));
     for (const char* integrator : {"path", "bdpt"}) {
         const std::string name = integrator;

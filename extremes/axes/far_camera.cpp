@@ -13,7 +13,7 @@ namespace extremes {
 
 namespace {
 
-auto far_camera_cases(EyeTracer trace)
+auto far_camera_cases(const EyeTracer& trace)
 {
     return [trace](double parameter, Random& random, int cases, Tally& tally) {
         for (int done = 0; done < cases; done += rays_of_far_eye) {
@@ -86,10 +86,14 @@ Axis far_camera_axis()
     axis.ordinary = 1;
     axis.logarithmic = true;
     axis.values = powers_of_ten(0, 18, 0.5);
-    axis.methods = {
-        {"ref", Format::binary64, far_camera_cases(met_by_reference)},
-        {"host", Format::binary32, far_camera_cases(met_by_fast_path)},
-        {"first moved to the scene (float)", Format::binary32, far_camera_cases(met_from_nearby)}};
+    for (const Wing wing : wings())
+        axis.methods.push_back({name_of(wing), format_of(wing),
+                                far_camera_cases([wing](const scenes::Scene& scene,
+                                                        const std::vector<scenes::Vec3>& towards) {
+                                    return met_by(wing, scene, towards);
+                                })});
+    axis.methods.push_back(
+        {"first moved to the scene (float)", Format::binary32, far_camera_cases(met_from_nearby)});
     const std::string because = "the eye and the direction are rounded to 2^-24 (2^-53 in double) of "
                                 "the distance, and so are the differences between the eye and a vertex";
     axis.limits = {{"ref", 7e12, [](double x) { return bound_of_far_camera(Format::binary64, x); }, 6e13,

@@ -3,11 +3,9 @@
 #include "extremes/axes/axes.h"
 #include "extremes/far/far_light_scene.h"
 #include "extremes/refusal.h"
+#include "extremes/wing.h"
 
-#include "cuda/launch/ray_pairs.h"
-#include "cuda/parallel/executor.h"
-#include "cuda/scene/scene_in_memory.h"
-#include "cuda/transport/emitter.h"
+#include "cuda/launch/probes.h"
 #include "ref/transport/visibility.h"
 #include "scenes/placed.h"
 
@@ -19,9 +17,6 @@
 namespace extremes {
 
 namespace {
-
-/// The irradiance at the points of the floor from the light, 0 in shadow.
-using FarIrradiance = std::vector<double> (*)(const FarLight& far, const scenes::Scene& placed);
 
 std::vector<double> irradiance_of_reference(const FarLight& far, const scenes::Scene& placed)
 {
@@ -39,38 +34,34 @@ std::vector<double> irradiance_of_reference(const FarLight& far, const scenes::S
     return result;
 }
 
-/// As next_event (cuda/transport/connect.h) does.
-std::vector<double> irradiance_of_fast_path(const FarLight& far, const scenes::Scene& placed)
+std::vector<double> irradiance_of_fast_path(Wing wing, const FarLight& far, const scenes::Scene& placed)
 {
     const fast::SceneArrays arrays = fast::scene_arrays(placed, false);
-    fast::HostMemory memory;
-    fast::SerialExecutor executor;
-    const fast::SceneInMemory in_memory(memory, executor, arrays, fast::Camera{});
-    const auto scene = in_memory.view<fast::any_needs>();
-    std::vector<double> result;
-    for (const FarLight::OnFloor& on : far.points) {
-        const auto point = fast::triangle_point<fast::any_needs, float>(
-            scene, on.triangle, static_cast<float>(on.b1), static_cast<float>(on.b2));
-        const auto light = fast::sample_incident<fast::any_needs, float>(
-            scene, point.position, {{0.5f, 0.5f, 0.5f, 0.5f}}, true);
-        const fast::Vec3 origin = fast::leave_to_side(point, point.normal);
-        const bool lit = !fast::occluded(scene.geometry, {origin, 1.0f, light.target - origin});
-        const float cosine = glm::dot(point.normal, light.wi);
-        result.push_back(lit ? light.alpha.x * cosine : 0.0f);
-    }
-    return result;
+    std::vector<fast::PointProbe> probes;
+    for (const FarLight::OnFloor& on : far.points)
+        probes.push_back({on.triangle, static_cast<float>(on.b1), static_cast<float>(on.b2)});
+    const auto compute = wing == Wing::cuda ? fast::probe_irradiance_on_device : fast::probe_irradiance;
+    const std::vector<float> found = compute(arrays, probes);
+    return {found.begin(), found.end()};
+}
+
+/// The irradiance at the points of the floor from the light, 0 in shadow.
+std::vector<double> far_irradiance(Wing wing, const FarLight& far, const scenes::Scene& placed)
+{
+    return wing == Wing::ref ? irradiance_of_reference(far, placed)
+                             : irradiance_of_fast_path(wing, far, placed);
 }
 
 /// `checked`: by scenes::placed, which refuses bright lights.
-auto far_light_cases(FarIrradiance irradiance, bool checked)
+auto far_light_cases(Wing wing, bool checked)
 {
-    return [irradiance, checked](double parameter, Random& random, int cases, Tally& tally) {
+    return [wing, checked](double parameter, Random& random, int cases, Tally& tally) {
         for (int done = 0; done < cases; done += points_of_far_light) {
             FarLight far = far_light(parameter, random);
             far.points.resize(static_cast<std::size_t>(std::min(points_of_far_light, cases - done)));
             std::vector<double> computed;
             const bool accepted = unless_refused(tally, far.points.size(), [&] {
-                computed = irradiance(far, checked ? scenes::placed(far.scene) : far.scene);
+                computed = far_irradiance(wing, far, checked ? scenes::placed(far.scene) : far.scene);
             });
             if (!accepted) continue;
             for (std::size_t i = 0; i < computed.size(); ++i) {
@@ -130,11 +121,12 @@ Axis far_light_axis()
     axis.ordinary = 1;
     axis.logarithmic = true;
     axis.values = powers_of_ten(0, 20, 0.5);
-    axis.methods = {
-        {"ref", Format::binary64, far_light_cases(irradiance_of_reference, true)},
-        {"host", Format::binary32, far_light_cases(irradiance_of_fast_path, true)},
-        {"not refused (double)", Format::binary64, far_light_cases(irradiance_of_reference, false)},
-        {"not refused (float)", Format::binary32, far_light_cases(irradiance_of_fast_path, false)}};
+    for (const Wing wing : wings())
+        axis.methods.push_back({name_of(wing), format_of(wing), far_light_cases(wing, true)});
+    axis.methods.push_back(
+        {"not refused (double)", Format::binary64, far_light_cases(Wing::ref, false)});
+    axis.methods.push_back(
+        {"not refused (float)", Format::binary32, far_light_cases(Wing::host, false)});
     const std::string because =
         "an intensity of more than 1e30 (with the scene about one unit large) is refused: use a "
         "directional light, which gives the same picture from a distance of 1e8 on";

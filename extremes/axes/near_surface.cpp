@@ -177,8 +177,14 @@ Axis near_surface_axis()
     axis.logarithmic = true;
     axis.values = powers_of_ten(-18, -1.5, 0.5);
     axis.values.push_back(axis.ordinary);
-    axis.methods = {{"ref", Format::binary64, near_eye_cases(met_by_reference, true)},
-                    {"host", Format::binary32, near_eye_cases(met_by_fast_path, true)}};
+    for (const Wing wing : wings())
+        axis.methods.push_back(
+            {name_of(wing), format_of(wing),
+             near_eye_cases(
+                 [wing](const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards) {
+                     return met_by(wing, scene, towards);
+                 },
+                 true)});
     add_epsilons<float>(axis.methods);
     add_epsilons<double>(axis.methods);
     const std::string because = "the coordinates of the eye and of the sheared vertices are rounded to "

@@ -92,7 +92,7 @@ void compare_radiance(const images::Image& image, const images::Image& one, doub
     tally.add(largest);
 }
 
-auto radiance_cases(Format wing, bool checked)
+auto radiance_cases(Wing wing, bool checked)
 {
     return [wing, checked](double parameter, Random& random, int cases, Tally& tally) {
         // A power of two: all products are those of radiance 1, scaled exactly.
@@ -160,10 +160,10 @@ Axis radiance_axis()
     for (const double value : powers_of_ten(-50, 50, 2)) axis.values.push_back(value);
     for (const double value : powers_of_ten(60, 300, 30)) axis.values.push_back(value);
     axis.most_cases = 1000;
-    axis.methods = {{"ref", Format::binary64, radiance_cases(Format::binary64, true)},
-                    {"host", Format::binary32, radiance_cases(Format::binary32, true)},
-                    {"not refused (double)", Format::binary64, radiance_cases(Format::binary64, false)},
-                    {"not refused (float)", Format::binary32, radiance_cases(Format::binary32, false)}};
+    for (const Wing wing : wings())
+        axis.methods.push_back({name_of(wing), format_of(wing), radiance_cases(wing, true)});
+    axis.methods.push_back({"not refused (double)", Format::binary64, radiance_cases(Wing::ref, false)});
+    axis.methods.push_back({"not refused (float)", Format::binary32, radiance_cases(Wing::host, false)});
     for (const auto& [method, format] :
          {std::pair("ref", Format::binary64), std::pair("host", Format::binary32)}) {
         const auto bound = [format = format](double x) { return bound_of_radiance(format, x); };

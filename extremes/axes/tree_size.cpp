@@ -88,8 +88,10 @@ void run_tree_size(const AnyBuilder& builder, double parameter, Random& random, 
             continue;
         }
         const auto n = static_cast<std::uint32_t>(parameter);
-        if (const auto* fast_builder = std::get_if<fast::TreeBuilder>(&builder))
-            judge_size<fast::TreeBuilder, fast::Aabb>(*fast_builder, many_boxes(n, random), tally);
+        if (const auto* host = std::get_if<fast::TreeBuilder>(&builder))
+            judge_size<fast::TreeBuilder, fast::Aabb>(*host, many_boxes(n, random), tally);
+        else if (const auto* device = std::get_if<DeviceBuilder>(&builder))
+            judge_size<DeviceBuilder, fast::Aabb>(*device, many_boxes(n, random), tally);
         else
             judge_size<ref::Builder, ref::Aabb>(std::get<ref::Builder>(builder),
                                                 in_doubles(many_boxes(n, random)), tally);

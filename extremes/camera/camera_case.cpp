@@ -1,6 +1,8 @@
 #include "extremes/camera/camera_case.h"
 
-#include "cuda/scene/scene_arrays.h"
+#include "extremes/wing.h"
+
+#include "cuda/launch/probes.h"
 #include "ref/transport/camera.h"
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace extremes {
 
@@ -74,6 +77,8 @@ private:
     ref::Camera camera_;
 };
 
+/// Wing::host or Wing::cuda.
+template <Wing wing>
 struct FastCamera {
     explicit FastCamera(const scenes::Camera& camera)
     {
@@ -83,26 +88,31 @@ struct FastCamera {
     }
     [[nodiscard]] scenes::Vec3 direction(double x, double y) const
     {
-        return scenes::Vec3(camera_.direction(static_cast<float>(x), static_cast<float>(y)));
+        return scenes::Vec3(probed(static_cast<float>(x), static_cast<float>(y), {0, 0, 0}).direction);
     }
     [[nodiscard]] std::optional<FilmPlace> project(const scenes::Vec3& w) const
     {
-        std::uint32_t pixel = 0;
-        if (!camera_.project<float>(fast::Vec3(w), pixel)) return std::nullopt;
-        const std::uint32_t row = pixel / camera_pixels;
-        return FilmPlace{static_cast<double>(pixel % camera_pixels), static_cast<double>(row), 1.0};
+        const fast::ProbedCamera found = probed(0, 0, w);
+        if (!found.shown) return std::nullopt;
+        const std::uint32_t row = found.pixel / camera_pixels;
+        return FilmPlace{static_cast<double>(found.pixel % camera_pixels), static_cast<double>(row),
+                         1.0};
     }
-    [[nodiscard]] double density(const scenes::Vec3& w) const
-    {
-        return camera_.pdf_solid_angle(camera_.cosine<float>(fast::Vec3(w)));
-    }
+    [[nodiscard]] double density(const scenes::Vec3& w) const { return probed(0, 0, w).pdf_solid_angle; }
 
 private:
+    [[nodiscard]] fast::ProbedCamera probed(float x, float y, const scenes::Vec3& w) const
+    {
+        const fast::CameraProbe probe{camera_, x, y, fast::Vec3(w)};
+        const auto compute = wing == Wing::cuda ? fast::probe_camera_on_device : fast::probe_camera;
+        return compute(std::span(&probe, 1)).front();
+    }
+
     fast::Camera camera_{};
 };
 
 /// The fast path with a field of view that was rounded to a float.
-struct FastCameraOfFloats : FastCamera {
+struct FastCameraOfFloats : FastCamera<Wing::host> {
     explicit FastCameraOfFloats(scenes::Camera camera) : FastCamera(with_float(camera)) {}
 
 private:
@@ -181,9 +191,18 @@ FieldOfView wide_field(double less_than_180_degrees)
 
 std::vector<Method> camera_methods(FieldOfView (*field)(double))
 {
-    return {{"ref", Format::binary64, camera_cases<RefCamera>(field)},
-            {"host", Format::binary32, camera_cases<FastCamera>(field)},
-            {"field of view as a float", Format::binary32, camera_cases<FastCameraOfFloats>(field)}};
+    std::vector<Method> methods;
+    for (const Wing wing : wings()) {
+        const auto add = [&](const auto& cases) {
+            methods.push_back({name_of(wing), format_of(wing), cases});
+        };
+        if (wing == Wing::ref) add(camera_cases<RefCamera>(field));
+        if (wing == Wing::host) add(camera_cases<FastCamera<Wing::host>>(field));
+        if (wing == Wing::cuda) add(camera_cases<FastCamera<Wing::cuda>>(field));
+    }
+    methods.push_back(
+        {"field of view as a float", Format::binary32, camera_cases<FastCameraOfFloats>(field)});
+    return methods;
 }
 
 } // namespace extremes

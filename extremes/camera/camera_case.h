@@ -21,7 +21,7 @@ struct FieldOfView {
 FieldOfView narrow_field(double degrees);
 FieldOfView wide_field(double less_than_180_degrees);
 
-/// "ref", "host", and a usual trick: the field of view as a float.
+/// Our wings, and a usual trick: the field of view as a float.
 ///
 /// A case is a camera with random axes and two random film points. The error is the largest of three:
 /// 1. The distance on the film, in pixels, between the first point and that which the direction of its

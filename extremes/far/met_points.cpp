@@ -1,6 +1,7 @@
 #include "extremes/far/met_points.h"
 
-#include "cuda/launch/ray_pairs.h"
+#include "extremes/hits_of_pairs.h"
+
 #include "ref/trees/geometry.h"
 #include "scenes/contacts.h"
 
@@ -14,7 +15,7 @@ namespace extremes {
 namespace {
 
 /// `moved_near`: the origin of each ray is moved along it to the scene, in double, before it is rounded.
-MetPoints met_by_floats(const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards,
+MetPoints met_by_floats(Wing wing, const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards,
                         bool moved_near)
 {
     const fast::SceneArrays arrays = fast::scene_arrays(scene, false);
@@ -28,7 +29,7 @@ MetPoints met_by_floats(const scenes::Scene& scene, const std::vector<scenes::Ve
         pairs.push_back({{arrays.place(from), std::numeric_limits<float>::infinity(), d}, -d});
     }
     MetPoints met;
-    const auto hits = fast::trace_ray_pairs(arrays, pairs);
+    const auto hits = hits_of_pairs(wing, arrays, pairs);
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const fast::Hit& hit = hits[i].first;
         if (hit.primitive == fast::no_primitive) {
@@ -51,8 +52,6 @@ MetPoints met_by_floats(const scenes::Scene& scene, const std::vector<scenes::Ve
     return met;
 }
 
-} // namespace
-
 MetPoints met_by_reference(const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards)
 {
     const ref::Geometry geometry(scene);
@@ -67,14 +66,17 @@ MetPoints met_by_reference(const scenes::Scene& scene, const std::vector<scenes:
     return met;
 }
 
-MetPoints met_by_fast_path(const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards)
+} // namespace
+
+MetPoints met_by(Wing wing, const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards)
 {
-    return met_by_floats(scene, towards, false);
+    return wing == Wing::ref ? met_by_reference(scene, towards)
+                             : met_by_floats(wing, scene, towards, false);
 }
 
 MetPoints met_from_nearby(const scenes::Scene& scene, const std::vector<scenes::Vec3>& towards)
 {
-    return met_by_floats(scene, towards, true);
+    return met_by_floats(Wing::host, scene, towards, true);
 }
 
 } // namespace extremes

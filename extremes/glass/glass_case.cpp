@@ -118,8 +118,11 @@ double error_of(const GlassCase& glass, const GlassAnswer& answer)
 
 std::vector<Method> glass_methods(const GlassDraw& draw)
 {
-    std::vector<Method> methods{method_of("ref", Format::binary64, glass_of_reference, draw),
-                                method_of("host", Format::binary32, glass_of_fast_path, draw)};
+    std::vector<Method> methods;
+    for (const Wing wing : wings())
+        methods.push_back(method_of(
+            name_of(wing), format_of(wing),
+            [wing](const GlassInput& input) { return glass_by(wing, input); }, draw));
     for (const GlassTrick& trick : glass_tricks())
         methods.push_back(method_of(trick.name, trick.format, trick.compute, draw));
     return methods;

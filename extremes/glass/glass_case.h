@@ -2,8 +2,8 @@
 
 // Random cases of a ray at the surface of glass, with the exact answer, for several axes.
 
-#include "extremes/axis.h"
 #include "extremes/exact.h"
+#include "extremes/wing.h"
 
 #include <functional>
 #include <optional>
@@ -45,9 +45,8 @@ struct GlassAnswer {
 
 using GlassFunction = std::function<GlassAnswer(const GlassInput&)>;
 
-/// ref/transport/bsdf.h and cuda/transport/bsdf.h.
-GlassAnswer glass_of_reference(const GlassInput& input);
-GlassAnswer glass_of_fast_path(const GlassInput& input);
+/// ref/transport/bsdf.h or cuda/transport/bsdf.h. A GPU throws the exceptions of probes.h.
+GlassAnswer glass_by(Wing wing, const GlassInput& input);
 
 /// A usual way to compute the same.
 struct GlassTrick {
@@ -65,7 +64,7 @@ using GlassDraw = std::function<GlassCase(double parameter, Random& random)>;
 /// answer and the truth have a refracted ray.
 double error_of(const GlassCase& glass, const GlassAnswer& answer);
 
-/// "ref", "host" and the tricks, with this error, on cases from `draw`.
+/// Our wings and the tricks, with this error, on cases from `draw`.
 std::vector<Method> glass_methods(const GlassDraw& draw);
 
 /// The same with the error of the transmitted share relative to itself. Failure::leaked: something

@@ -2,15 +2,18 @@
 
 #include "extremes/glass/glass_case.h"
 
-#include "cuda/transport/bsdf.h"
+#include "cuda/launch/probes.h"
 #include "ref/transport/bsdf.h"
 
 #include <glm/geometric.hpp>
 
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace extremes {
+
+namespace {
 
 GlassAnswer glass_of_reference(const GlassInput& input)
 {
@@ -29,26 +32,22 @@ GlassAnswer glass_of_reference(const GlassInput& input)
     return answer;
 }
 
-GlassAnswer glass_of_fast_path(const GlassInput& input)
+GlassAnswer glass_of_fast_path(Wing wing, const GlassInput& input)
 {
-    const fast::Material glass =
-        fast::material_of(scenes::Glass{scenes::Rgb(1.0), scenes::Rgb(1.0), input.ior}, false);
-    const fast::Vec3 wo(input.wo_local);
-    const bool outside = wo.z > 0;
-    float cos_t = 0;
-    const float reflected = fast::fresnel(std::abs(wo.z), outside ? 1.0f / glass.ior : glass.ior, cos_t);
-    GlassAnswer answer{reflected};
-    const fast::BsdfSample sample = fast::sample_bsdf<true, float>(
-        glass, wo, {{0, 0, 1.0f - 0x1p-24f, 0}}, fast::Transport::radiance);
-    answer.refracts = sample.wi_local.z * wo.z < 0;
+    const fast::GlassProbe probe{
+        fast::material_of(scenes::Glass{scenes::Rgb(1.0), scenes::Rgb(1.0), input.ior}, false),
+        fast::Vec3(input.wo_local)};
+    const auto compute = wing == Wing::cuda ? fast::probe_glass_on_device : fast::probe_glass;
+    const fast::ProbedGlass found = compute(std::span(&probe, 1)).front();
+    const fast::BsdfSample& sample = found.sample;
+    GlassAnswer answer{found.reflected};
+    answer.refracts = sample.wi_local.z * probe.wo_local.z < 0;
     if (!answer.refracts) return answer;
-    answer.transmitted = 1.0f - reflected;
+    answer.transmitted = 1.0f - found.reflected;
     answer.wi_local = scenes::Vec3(sample.wi_local);
     answer.scale = sample.value.x;
     return answer;
 }
-
-namespace {
 
 /// A ray at glass in one format.
 template <class F>
@@ -133,6 +132,11 @@ GlassAnswer with_schlick(const GlassInput& input)
 }
 
 } // namespace
+
+GlassAnswer glass_by(Wing wing, const GlassInput& input)
+{
+    return wing == Wing::ref ? glass_of_reference(input) : glass_of_fast_path(wing, input);
+}
 
 std::vector<GlassTrick> glass_tricks()
 {

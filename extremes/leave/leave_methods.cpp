@@ -1,9 +1,8 @@
 // How our own two implementations leave surfaces, as they are used in renders.
 
+#include "extremes/hits_of_pairs.h"
 #include "extremes/leave/for_each_ray.h"
 
-#include "cuda/launch/device.h"
-#include "cuda/launch/ray_pairs.h"
 #include "cuda/scene/float_notices.h"
 #include "cuda/scene/scene_arrays.h"
 #include "ref/trees/geometry.h"
@@ -76,11 +75,7 @@ void run_ref(MakeLeaveCase make, double parameter, Random& random, int cases, Ta
     });
 }
 
-using TracePairs = std::vector<fast::PairOfHits> (*)(const fast::SceneArrays&,
-                                                     std::span<const fast::RayPair>);
-
-void run_fast(TracePairs trace, MakeLeaveCase make, double parameter, Random& random, int cases,
-              Tally& tally)
+void run_fast(Wing wing, MakeLeaveCase make, double parameter, Random& random, int cases, Tally& tally)
 {
     for_each_leave_ray(make, parameter, random, cases, tally, [&](const LeaveCase& from, Tally& of) {
         const scenes::Scene scene = placed_with_origins(from);
@@ -94,7 +89,7 @@ void run_fast(TracePairs trace, MakeLeaveCase make, double parameter, Random& ra
                   fast::Vec3(from.rays[i].direction)},
                  fast::Vec3(from.rays[i].onward)});
         std::vector<FoundOnward> all;
-        for (const auto& [first, second] : trace(arrays, pairs)) {
+        for (const auto& [first, second] : hits_of_pairs(wing, arrays, pairs)) {
             FoundOnward found;
             if (first.primitive != fast::no_primitive) found.first = first.primitive;
             if (second.primitive != fast::no_primitive) {
@@ -112,19 +107,22 @@ void run_fast(TracePairs trace, MakeLeaveCase make, double parameter, Random& ra
 
 std::vector<Method> leave_methods(MakeLeaveCase make, bool tricks)
 {
-    const auto fast_method = [&](const char* name, TracePairs trace) {
-        return Method{name, Format::binary32,
-                      [trace, make](double parameter, Random& random, int cases, Tally& tally) {
-                          run_fast(trace, make, parameter, random, cases, tally);
+    const Method ref_method{"ref", Format::binary64,
+                            [make](double parameter, Random& random, int cases, Tally& tally) {
+                                run_ref(make, parameter, random, cases, tally);
+                            }};
+    const auto fast_method = [&](Wing wing) {
+        return Method{name_of(wing), Format::binary32,
+                      [wing, make](double parameter, Random& random, int cases, Tally& tally) {
+                          run_fast(wing, make, parameter, random, cases, tally);
                       }};
     };
-    std::vector<Method> methods = {{"ref", Format::binary64,
-                                    [make](double parameter, Random& random, int cases, Tally& tally) {
-                                        run_ref(make, parameter, random, cases, tally);
-                                    }},
-                                   fast_method("host", fast::trace_ray_pairs)};
-    static const bool has_device = fast::find_device().usable;
-    if (has_device) methods.push_back(fast_method("cuda", fast::trace_ray_pairs_on_device));
+    std::vector<Method> methods;
+    for (const Wing wing : wings())
+        if (wing == Wing::ref)
+            methods.push_back(ref_method);
+        else
+            methods.push_back(fast_method(wing));
     if (tricks)
         for (Method& trick : leave_tricks(make)) methods.push_back(std::move(trick));
     return methods;

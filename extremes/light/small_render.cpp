@@ -3,14 +3,26 @@
 #include "cuda/launch/renderer.h"
 #include "ref/transport/renderer.h"
 
+#include <memory>
+
 namespace extremes {
 
-images::Image small_render(Format wing, const scenes::Scene& scene, int size,
+namespace {
+
+std::unique_ptr<images::Renderer> renderer_of(Wing wing, const scenes::Scene& scene, int size,
+                                              const images::RenderOptions& options)
+{
+    if (wing == Wing::ref) return ref::renderer(scene, size, size, options);
+    if (wing == Wing::host) return fast::host_renderer(scene, size, size, options, 1);
+    return fast::device_renderer(scene, size, size, options);
+}
+
+} // namespace
+
+images::Image small_render(Wing wing, const scenes::Scene& scene, int size,
                            const images::RenderOptions& options)
 {
-    const auto renderer = wing == Format::binary64 ? ref::renderer(scene, size, size, options)
-                                                   : fast::host_renderer(scene, size, size, options, 1);
-    images::Image image = renderer->render_batch(0).value().mean;
+    images::Image image = renderer_of(wing, scene, size, options)->render_batch(0).value().mean;
     for (images::Rgb& pixel : image.pixels)
         for (int channel = 0; channel < 3; ++channel)
             pixel[channel] = static_cast<double>(static_cast<float>(pixel[channel]));

@@ -1,9 +1,9 @@
 #pragma once
 
-// Small pictures by both wings, as a file holds them.
+// Small pictures by each wing, as a file holds them.
 
-#include "extremes/axis.h"
 #include "extremes/refusal.h"
+#include "extremes/wing.h"
 
 #include "images/image.h"
 #include "images/render_options.h"
@@ -15,8 +15,8 @@ namespace extremes {
 
 /// One batch of `options`, `size` x `size` pixels, rounded to the 32-bit floats of a picture file.
 /// Throws std::invalid_argument for what the renderer refuses, and std::runtime_error if a contribution
-/// is not finite.
-images::Image small_render(Format wing, const scenes::Scene& scene, int size,
+/// is not finite, or the GPU fails.
+images::Image small_render(Wing wing, const scenes::Scene& scene, int size,
                            const images::RenderOptions& options);
 
 /// Calls judge(), which makes small renders and adds one case to `tally`. Adds the case itself where the

@@ -1,9 +1,9 @@
 #include "extremes/spheres/sphere_rays.h"
 #include "extremes/grey_scene.h"
+#include "extremes/hits_of_pairs.h"
 
 #include "cuda/parallel/executor.h"
 #include "cuda/scene/scene_in_memory.h"
-#include "cuda/transport/ray_pairs.h"
 #include "ref/trees/geometry.h"
 #include "scenes/contacts.h"
 #include "scenes/placed.h"
@@ -44,7 +44,8 @@ BothMet both_met_by_reference(const scenes::Scene& scene, const scenes::Vec3& fi
     return met;
 }
 
-BothMet both_met_by_fast_path(const scenes::Scene& scene, const scenes::Vec3& first,
+/// By Wing::host or Wing::cuda. Positions are computed from the hits on the host.
+BothMet both_met_by_fast_path(Wing wing, const scenes::Scene& scene, const scenes::Vec3& first,
                               const scenes::Vec3& onward)
 {
     const fast::SceneArrays arrays = fast::scene_arrays(scene, false);
@@ -59,8 +60,7 @@ BothMet both_met_by_fast_path(const scenes::Scene& scene, const scenes::Vec3& fi
     const fast::RayPair pair{
         {arrays.place(scene.camera->eye), std::numeric_limits<float>::infinity(), fast::Vec3(first)},
         fast::Vec3(onward)};
-    fast::PairOfHits hits{};
-    fast::TraceRayPairs<fast::any_needs>{view, std::span(&pair, 1), std::span(&hits, 1)}(0);
+    const fast::PairOfHits hits = hits_of_pairs(wing, arrays, std::span(&pair, 1)).front();
     BothMet met{};
     if (hits.first.primitive == fast::no_primitive) return met;
     met[0] = Met{hits.first.primitive, position(pair.first, hits.first)};
@@ -85,17 +85,18 @@ std::optional<Failure> failure_of_two_rays(const TwoRays& rays, const BothMet& m
     return rays.inward ? Failure::leaked : Failure::wrong_order;
 }
 
-auto cases_of_two_rays(BothMet (*trace)(const scenes::Scene&, const scenes::Vec3&, const scenes::Vec3&),
-                       const TwoRaysDraw& draw)
+auto cases_of_two_rays(Wing wing, const TwoRaysDraw& draw)
 {
-    return [trace, draw](double parameter, Random& random, int cases, Tally& tally) {
+    return [wing, draw](double parameter, Random& random, int cases, Tally& tally) {
         for (int i = 0; i < cases; ++i) {
             const TwoRays rays = draw(parameter, random);
             const scenes::Vec3 first =
                 rounded_unit(rays.first_point - ExactVec3(rays.scene.camera->eye));
             const scenes::Scene scene = scenes::placed(rays.scene);
             const double unit = scene.unit / rays.scene.unit;
-            const BothMet met = trace(scene, first, rays.onward);
+            const BothMet met = wing == Wing::ref
+                                    ? both_met_by_reference(scene, first, rays.onward)
+                                    : both_met_by_fast_path(wing, scene, first, rays.onward);
             if (const auto failure = failure_of_two_rays(rays, met)) {
                 tally.add(*failure);
                 continue;
@@ -115,8 +116,10 @@ auto cases_of_two_rays(BothMet (*trace)(const scenes::Scene&, const scenes::Vec3
 
 std::vector<Method> methods_of_two_rays(const TwoRaysDraw& draw)
 {
-    return {{"ref", Format::binary64, cases_of_two_rays(both_met_by_reference, draw)},
-            {"host", Format::binary32, cases_of_two_rays(both_met_by_fast_path, draw)}};
+    std::vector<Method> methods;
+    for (const Wing wing : wings())
+        methods.push_back({name_of(wing), format_of(wing), cases_of_two_rays(wing, draw)});
+    return methods;
 }
 
 ExactVec3 point_of_sphere(const scenes::Sphere& sphere, const ExactVec3& towards)

@@ -2,6 +2,7 @@
 
 #include "extremes/trees/check_binary_tree.h"
 
+#include "cuda/launch/device_lbvh.h"
 #include "cuda/parallel/executor.h"
 #include "cuda/trees/hploc.h"
 #include "cuda/trees/lbvh.h"
@@ -23,6 +24,17 @@ bool clusters(fast::TreeBuilder builder)
     return builder == fast::TreeBuilder::hploc30 || builder == fast::TreeBuilder::hploc63;
 }
 
+/// `codes` by leaf. `leaves_in_order`: as a radix tree has them.
+JudgedTree judged_binary(const BinaryTree& tree, bool leaves_in_order, std::vector<std::uint64_t> codes)
+{
+    const CheckedTree result = checked(tree, leaves_in_order);
+    JudgedTree judged{
+        std::move(codes), {tree.primitives.begin(), tree.primitives.end()}, result.fault, result.depth};
+    if (judged.fault.empty() && !std::ranges::is_sorted(judged.codes))
+        judged.fault = "codes not in order";
+    return judged;
+}
+
 template <class Code>
 JudgedTree judged_fast(std::span<const fast::Aabb> boxes, bool clustered)
 {
@@ -40,15 +52,9 @@ JudgedTree judged_fast(std::span<const fast::Aabb> boxes, bool clustered)
         tree.nodes = std::as_const(*merged).nodes();
         tree.leaf_links = merged->leaf_links();
     }
-    const CheckedTree result = checked(tree, !clustered);
-    JudgedTree judged{{sorted.codes().begin(), sorted.codes().end()},
-                      {tree.primitives.begin(), tree.primitives.end()},
-                      result.fault,
-                      result.depth};
-    if (judged.fault.empty() && !std::ranges::is_sorted(judged.codes))
-        judged.fault = "codes not in order";
+    JudgedTree judged = judged_binary(tree, !clustered, {sorted.codes().begin(), sorted.codes().end()});
     if (judged.fault.empty() && clustered &&
-        merged->height() != static_cast<std::uint32_t>(result.depth))
+        merged->height() != static_cast<std::uint32_t>(judged.depth))
         judged.fault = "a wrong height";
     return judged;
 }
@@ -80,12 +86,32 @@ JudgedTree judged(fast::TreeBuilder builder, std::span<const fast::Aabb> boxes)
                                     : judged_fast<std::uint64_t>(boxes, clusters(builder));
 }
 
+JudgedTree judged(DeviceBuilder builder, std::span<const fast::Aabb> boxes)
+{
+    fast::DeviceLbvh device(static_cast<std::uint32_t>(boxes.size()), code_bits(builder));
+    device.build(boxes);
+    fast::BuiltTree tree = device.download();
+    std::vector<std::uint64_t> codes = std::move(tree.codes);
+    const bool clustered = clusters(builder.builder);
+    if (clustered) tree = device.download_clustered();
+    return judged_binary({tree.nodes, tree.leaf_links, tree.primitives, boxes}, !clustered,
+                         std::move(codes));
+}
+
+std::optional<fast::TreeBuilder> fast_builder(const AnyBuilder& builder)
+{
+    if (const auto* device = std::get_if<DeviceBuilder>(&builder)) return device->builder;
+    const auto* host = std::get_if<fast::TreeBuilder>(&builder);
+    return host != nullptr ? std::optional(*host) : std::nullopt;
+}
+
 JudgedTree judged(const AnyBuilder& builder, std::span<const ref::Aabb> boxes)
 {
     if (const auto* reference = std::get_if<ref::Builder>(&builder)) return judged(*reference, boxes);
     std::vector<fast::Aabb> rounded;
     rounded.reserve(boxes.size());
     for (const ref::Aabb& box : boxes) rounded.push_back({fast::Vec3(box.lower), fast::Vec3(box.upper)});
+    if (const auto* device = std::get_if<DeviceBuilder>(&builder)) return judged(*device, rounded);
     return judged(std::get<fast::TreeBuilder>(builder), rounded);
 }
 
@@ -95,17 +121,14 @@ int code_bits(const AnyBuilder& builder)
         if (*reference == ref::Builder::morton30) return 30;
         return *reference == ref::Builder::morton63 ? 63 : 0;
     }
-    const auto fast_builder = std::get<fast::TreeBuilder>(builder);
-    return fast_builder == fast::TreeBuilder::morton30 || fast_builder == fast::TreeBuilder::hploc30
-               ? 30
-               : 63;
+    const fast::TreeBuilder of_floats = *fast_builder(builder);
+    return of_floats == fast::TreeBuilder::morton30 || of_floats == fast::TreeBuilder::hploc30 ? 30 : 63;
 }
 
 int depth_bound(const AnyBuilder& builder, std::size_t n)
 {
     const auto index_bits = static_cast<int>(std::bit_width(n - 1));
-    if (const auto* fast_builder = std::get_if<fast::TreeBuilder>(&builder);
-        fast_builder != nullptr && clusters(*fast_builder))
+    if (const auto of_floats = fast_builder(builder); of_floats && clusters(*of_floats))
         return fast::deepest_tree;
     const int bits = code_bits(builder);
     return (bits > 0 ? bits : 64) + index_bits;
@@ -126,11 +149,10 @@ double bytes_of_build(const AnyBuilder& builder)
         // costs 8.
         return 48 + 24 + 96 + 8 + (*reference == ref::Builder::sah ? 24 + 20 : 24 + 32);
     }
-    const auto fast_builder = std::get<fast::TreeBuilder>(builder);
     // Boxes 24; nodes 64, links 4, two of codes and of primitives; the copies of both at the end.
     // Clusters have nodes and links again, two lists 16, and 36 each.
     const double codes = code_bits(builder) == 30 ? 4 : 8;
-    return 24 + 68 + 2 * (codes + 4) + 12 + (clusters(fast_builder) ? 68 + 16 + 36 : 0);
+    return 24 + 68 + 2 * (codes + 4) + 12 + (clusters(*fast_builder(builder)) ? 68 + 16 + 36 : 0);
 }
 
 } // namespace extremes

@@ -2,7 +2,7 @@
 
 // One tree over boxes by each builder of both wings, built and checked.
 
-#include "extremes/axis.h"
+#include "extremes/wing.h"
 
 #include "cuda/trees/aabb.h"
 #include "cuda/trees/tree_builder.h"
@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,7 +19,16 @@
 
 namespace extremes {
 
-using AnyBuilder = std::variant<ref::Builder, fast::TreeBuilder>;
+/// A builder of the fast path on a GPU.
+struct DeviceBuilder {
+    fast::TreeBuilder builder;
+    bool operator==(const DeviceBuilder&) const = default;
+};
+
+using AnyBuilder = std::variant<ref::Builder, fast::TreeBuilder, DeviceBuilder>;
+
+/// The builder of the fast path, wherever it runs; none for one of the reference.
+std::optional<fast::TreeBuilder> fast_builder(const AnyBuilder& builder);
 
 /// A tree that was built: what is needed to judge it.
 struct JudgedTree {
@@ -31,6 +41,7 @@ struct JudgedTree {
 /// Throws what the builders throw.
 JudgedTree judged(ref::Builder builder, std::span<const ref::Aabb> boxes);
 JudgedTree judged(fast::TreeBuilder builder, std::span<const fast::Aabb> boxes);
+JudgedTree judged(DeviceBuilder builder, std::span<const fast::Aabb> boxes);
 /// The same for any builder; the boxes are rounded to the nearest floats for the fast path.
 JudgedTree judged(const AnyBuilder& builder, std::span<const ref::Aabb> boxes);
 
@@ -66,18 +77,24 @@ double lost_order(const JudgedTree& tree, const SameCentroid& same_centroid)
 /// distribution and 10 more; and 0 where m < 1e-5.
 double lost_order_bound(double n, double probability);
 
-/// All builders as methods; run(builder, parameter, random, cases, tally).
+/// All builders as methods, those of a GPU where there is one; run(builder, parameter, random, cases,
+/// tally).
 template <class Run>
 std::vector<Method> tree_methods(const Run& run)
 {
-    const std::vector<std::pair<std::string, AnyBuilder>> builders = {
+    std::vector<std::pair<std::string, AnyBuilder>> builders = {
         {"ref, morton30", ref::Builder::morton30},
         {"ref, morton63", ref::Builder::morton63},
-        {"ref, sah", ref::Builder::sah},
-        {"host, morton30", fast::TreeBuilder::morton30},
-        {"host, morton63", fast::TreeBuilder::morton63},
-        {"host, hploc30", fast::TreeBuilder::hploc30},
-        {"host, hploc63", fast::TreeBuilder::hploc63}};
+        {"ref, sah", ref::Builder::sah}};
+    for (const Wing wing : wings())
+        for (const auto& [name, builder] : {std::pair("morton30", fast::TreeBuilder::morton30),
+                                            std::pair("morton63", fast::TreeBuilder::morton63),
+                                            std::pair("hploc30", fast::TreeBuilder::hploc30),
+                                            std::pair("hploc63", fast::TreeBuilder::hploc63)}) {
+            if (wing == Wing::host) builders.emplace_back(name_of(wing) + ", " + name, builder);
+            if (wing == Wing::cuda)
+                builders.emplace_back(name_of(wing) + ", " + name, DeviceBuilder{builder});
+        }
     std::vector<Method> methods;
     for (const auto& [name, builder] : builders) {
         const bool is_ref = std::holds_alternative<ref::Builder>(builder);

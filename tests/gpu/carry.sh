@@ -16,7 +16,7 @@ while [ $# -gt 0 ]; do
     esac
 done
 cd "$root"
-programs=(plumbline tests/test_cuda tests/test_renders)
+programs=(plumbline tests/test_cuda tests/test_renders tests/test_extremes)
 if [ -z "$build" ]; then
     build=$root/build/cuda
     cmake --preset cuda -DPLUMBLINE_TESTS=ON

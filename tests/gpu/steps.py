@@ -45,6 +45,7 @@ KERNELS = ("samples", "stages")  # a kernel for whole samples, or one for each s
 def all_steps(build, scratch):
     """The steps for the programs of the folder `build`; pictures go to the folder `scratch`."""
     plumbline, test_cuda, test_renders = build / "plumbline", build / "tests/test_cuda", build / "tests/test_renders"
+    test_extremes = build / "tests/test_extremes"
 
     def render(scene, integrator, kernels, size, samples, *more):
         return [plumbline, "render", f"scenes/{scene}.dae", "-o", f"{scratch}/picture.pfm", "--device", "cuda",
@@ -75,6 +76,10 @@ def all_steps(build, scratch):
                [Command("", tests(test_cuda, "*OnDevice.*:*/device*"), MUST)], readings.gtest)
     yield Step("tests.renders", "device renders of every scene against its golden", 85,
                [Command("", tests(test_renders, "*OnADeviceAllAgree*"), MUST)], readings.gtest)
+
+    yield Step("tests.extremes", "the axes of plumbline extremes: rays, pictures and trees on the device, and both sides of "
+               "each limit", 35,
+               [Command("", tests(test_extremes, "*OnDevice.*:*Limits.*_cuda*"), MUST)], readings.gtest)
 
     for check in ("memcheck", "racecheck", "initcheck", "synccheck"):
         under = ["compute-sanitizer", "--tool", check, "--error-exitcode", "9"]

@@ -1,0 +1,54 @@
+#include "extremes/wing.h"
+
+#include "cuda/launch/device.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace extremes {
+
+namespace {
+
+constexpr std::string_view host = "host";
+constexpr std::string_view cuda = "cuda";
+
+} // namespace
+
+std::string name_of(Wing wing)
+{
+    if (wing == Wing::ref) return "ref";
+    return std::string(wing == Wing::host ? host : cuda);
+}
+
+Format format_of(Wing wing)
+{
+    return wing == Wing::ref ? Format::binary64 : Format::binary32;
+}
+
+std::vector<Wing> wings()
+{
+    static const bool has_device = fast::find_device().usable;
+    std::vector<Wing> found = {Wing::ref, Wing::host};
+    if (has_device) found.push_back(Wing::cuda);
+    return found;
+}
+
+bool on_device(const Method& method)
+{
+    return method.name.starts_with(cuda);
+}
+
+void add_limits_of_device(Axis& axis)
+{
+    std::vector<Limit> added;
+    for (const Limit& limit : axis.limits) {
+        if (!limit.method.starts_with(host)) continue;
+        Limit same = limit;
+        same.method.replace(0, host.size(), cuda);
+        const auto is_method = [&](const Method& method) { return method.name == same.method; };
+        if (std::ranges::any_of(axis.methods, is_method)) added.push_back(std::move(same));
+    }
+    for (Limit& limit : added) axis.limits.push_back(std::move(limit));
+}
+
+} // namespace extremes
