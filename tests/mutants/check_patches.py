@@ -12,6 +12,7 @@ import subprocess
 import sys
 
 import gtest
+import judged
 import mutant
 from project import is_test_program
 from sources import apply
@@ -90,6 +91,12 @@ def first_tests_that_are_none(root, tests):
     return [f"first_tests.txt: there is no test {name}" for name in names if not exists(name, tests)]
 
 
+def idle_tests_that_are_none(root, tests):
+    """Sentences about idle.toml, which names tests that notice no mutant."""
+    file = root / "tests/mutants/idle.toml"
+    return [f"idle.toml: there is no test {pattern}" for pattern in judged.entries(file) if not exists(pattern, tests)]
+
+
 def main(root=mutant.ROOT):
     mutants, faults = readable(mutant.PATCHES)
     tests, targets = frozenset(defined_tests(root)), defined_targets(root)
@@ -100,6 +107,7 @@ def main(root=mutant.ROOT):
         if (first := diffs.setdefault(made.diff, made.name)) != made.name:
             faults.append(f"{made.name}.patch: the same change as {first}.patch")
     faults = [f"patches/{fault}" for fault in faults] + first_tests_that_are_none(root, tests)
+    faults += idle_tests_that_are_none(root, tests)
     for fault in faults:
         print(f"tests/mutants/{fault}")
     return 1 if faults else 0

@@ -1,15 +1,20 @@
-"""Generated mutants that were looked at by hand: judged.toml has a table for each.
+"""What was looked at by hand. Of generated mutants, judged.toml has a table for each:
 
     [NAME]
     equivalent = "why no test can tell the program with the mutant from the program without it"
 
-What a test could tell is not judged: the test is written.
+What a test could tell is not judged: the test is written. Of tests that notice no mutant, idle.toml has the reason to exist:
+
+    "Suite.Name" = "what it sees that no mutant is about"      # gtest's wildcards are allowed
 """
 
 import functools
 import pathlib
 
+import gtest
+
 FILE = pathlib.Path(__file__).with_name("judged.toml")
+IDLE = pathlib.Path(__file__).with_name("idle.toml")
 
 
 def entries(file):
@@ -22,6 +27,17 @@ def entries(file):
 def equivalent(file=FILE):
     """The names of the mutants that no test can see, each with the reason."""
     return {name: entry["equivalent"] for name, entry in entries(file).items()}
+
+
+@functools.cache
+def reasons(file=IDLE):
+    """The reason to exist of tests that notice no mutant, by pattern."""
+    return entries(file)
+
+
+def reason_of(test, known):
+    """The pattern of `known` (reasons) that names the test; nothing if there is none."""
+    return next((pattern for pattern in known if gtest.matching(pattern, [test])), "")
 
 
 def faults(names, file=FILE):

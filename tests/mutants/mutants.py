@@ -13,6 +13,7 @@ import sys
 import time
 
 import generate
+import judged
 import mutant as mutant_file
 import tables
 import workers
@@ -126,7 +127,7 @@ def main(argv):
     default = mutant_file.ROOT / "out" / ("mutants_generated" if arguments.generated else "mutants")
     base = arguments.out or default
     for ending, made in ((".json", tables.as_json), (".md", tables.as_markdown)):
-        write_whole(base.with_name(base.name + ending), made(mutants, results, unchanged.times, run))
+        write_whole(base.with_name(base.name + ending), made(mutants, results, unchanged.times, run, judged.reasons()))
     killed, all_ = (sum(numbers[i] for numbers in tables.score(results).values()) for i in (0, 1))
     print(f"{killed} of {all_} mutants are killed. The tables: {base}.json and {base}.md")
     if wrong := [result.name for result in results if not result.fine]:

@@ -166,12 +166,23 @@ class Tables(unittest.TestCase):
         self.assertEqual(table["areas"], {"ref/x": {"killed": 2, "mutants": 2}, "ref/y": {"killed": 0, "mutants": 2}})
         self.assertEqual([(row["test"], row["kills"]) for row in table["cheapest"]], [("A.Cheap", 1), ("A.Dear", 1)])
         self.assertEqual(table["by_one_test"], {"b": "A.Dear"})
-        self.assertEqual(table["tests_that_kill_nothing"], ["A.Idle"])
+        self.assertEqual(table["tests_that_kill_nothing"], {"A.Idle": ""})
 
     def test_markdown(self):
         text = tables.as_markdown(self.mutants, self.results, self.times, {"date": "today"})
         for part in ("| all | 2 | 4 | 50% |", "- `c`: SURVIVED", "- `e`: does not build", "(equivalent: the same)", "1 of 2 (50%)", "1 of 3"):
             self.assertIn(part, text)
+
+    def test_idle_tests_with_and_without_a_reason(self):
+        without = tables.as_markdown(self.mutants, self.results, self.times, {})
+        self.assertIn("Without a reason in `tests/mutants/idle.toml`: 1\n\n- `A.Idle`", without)
+        reasons = {"B.*": "of other tests", "A.Id*": "it sees crashes"}
+        reasoned = tables.as_markdown(self.mutants, self.results, self.times, {}, reasons)
+        self.assertIn("| `A.Id*` | 1 | it sees crashes |", reasoned)
+        self.assertNotIn("Without a reason", reasoned)
+        self.assertNotIn("of other tests", reasoned)
+        table = json.loads(tables.as_json(self.mutants, self.results, self.times, {}, reasons))
+        self.assertEqual(table["tests_that_kill_nothing"], {"A.Idle": "A.Id*"})
 
     def test_without_weighing_no_test_is_called_idle(self):
         results = [Result("a", "ref/x/f.cpp", "a", Outcome.KILLED, "A.Cheap")]
@@ -180,7 +191,7 @@ class Tables(unittest.TestCase):
 
 
 class Check(unittest.TestCase):
-    def complaints(self, files, first="Sum.Adds"):
+    def complaints(self, files, first="Sum.Adds", idle="Sum.*"):
         with tempfile.TemporaryDirectory() as folder:
             root, patches = Toy(folder).root, pathlib.Path(folder, "patches")
             (root / "CMakeLists.txt").write_text("add_executable(other other.cpp)\n")
@@ -188,6 +199,7 @@ class Check(unittest.TestCase):
             (root / "tests/sum_test.cpp").write_text("TEST(Sum, Adds)\nRC_GTEST_PROP(Kinds, Fit,\nTYPED_TEST(Typed, Works)\n")
             (root / "tests/mutants").mkdir()
             (root / "tests/mutants/first_tests.txt").write_text(f"{first}\n")
+            (root / "tests/mutants/idle.toml").write_text(f'"{idle}" = "a reason"\n')
             patches.mkdir()
             for name, text in files.items():
                 (patches / name).write_text(text)
@@ -204,6 +216,10 @@ class Check(unittest.TestCase):
     def test_first_tests_exist(self):
         said = self.complaints({"m.patch": patch()}, first="Sum.Divides")
         self.assertIn("first_tests.txt: there is no test Sum.Divides", said)
+
+    def test_idle_tests_exist(self):
+        said = self.complaints({"m.patch": patch()}, idle="Sum.Div*")
+        self.assertEqual(said, "tests/mutants/idle.toml: there is no test Sum.Div*\n")
 
     def test_faults(self):
         stale = patch(diff=toy_mutant("m", "echo 1").diff.replace("$1 + $2", "$1 * $2"))

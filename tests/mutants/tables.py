@@ -5,6 +5,7 @@ import dataclasses
 import json
 import pathlib
 
+import judged
 from keep import Outcome
 
 TEN = 10
@@ -46,7 +47,8 @@ def idle(mutants, results, times):
     return sorted(name for key in used for name in times.get(key, {}) if name not in killing)
 
 
-def as_json(mutants, results, times, run):
+def as_json(mutants, results, times, run, reasons=()):
+    """`reasons`: of tests that notice nothing (judged.py)."""
     complete = bool(results) and all(result.weighed for result in results)
     counted = {outcome.value: sum(result.outcome is outcome for result in results) for outcome in Outcome}
     table = {
@@ -59,11 +61,11 @@ def as_json(mutants, results, times, run):
     }
     if complete:
         table["by_one_test"] = dict(by_one_test(results))
-        table["tests_that_kill_nothing"] = idle(mutants, results, times)
+        table["tests_that_kill_nothing"] = {test: judged.reason_of(test, reasons) for test in idle(mutants, results, times)}
     return json.dumps(table, indent=1) + "\n"
 
 
-def as_markdown(mutants, results, times, run):
+def as_markdown(mutants, results, times, run, reasons=()):
     lines = ["# Mutants", "", *(f"{key.replace('_', ' ')}: {value}  " for key, value in run.items()), ""]
     lines += _table(
         ("area", "killed", "mutants", "score"),
@@ -75,7 +77,7 @@ def as_markdown(mutants, results, times, run):
     lines += ["## The ten tests with most kills per second", ""]
     rows = [(f"`{test}`", kills, f"{s:.3f}", f"{rate:.0f}") for rate, kills, s, test in cheapest(results, times)]
     lines += _table(("test", "kills", "seconds", "kills per second"), rows)
-    lines += _of_weighed_tests(mutants, results, times)
+    lines += _of_weighed_tests(mutants, results, times, reasons)
     lines += ["## All mutants", ""]
     order = sorted(results, key=lambda r: (r.fine, r.file, r.name))
     rows = [
@@ -86,7 +88,7 @@ def as_markdown(mutants, results, times, run):
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
-def _of_weighed_tests(mutants, results, times):
+def _of_weighed_tests(mutants, results, times, reasons):
     if not results or not all(result.weighed for result in results):
         return [
             "Each mutant was tried until the first test failed. `./run mutants --weigh-tests` tells which mutants only one test notices,",
@@ -99,7 +101,12 @@ def _of_weighed_tests(mutants, results, times):
     lines += _table(("mutant", "test"), [(f"`{name}`", f"`{test}`") for name, test in alone])
     unused = idle(mutants, results, times)
     lines += ["## Tests that notice none of these mutants", "", f"{len(unused)} of {_tests(mutants, times)}", ""]
-    return lines + [f"- `{name}`" for name in unused] + [""] * bool(unused)
+    found = {test: judged.reason_of(test, reasons) for test in unused}
+    rows = [(f"`{pattern}`", list(found.values()).count(pattern), reasons[pattern]) for pattern in sorted(set(found.values()) - {""})]
+    lines += _table(("tests", "number", "reason to exist"), rows)
+    if left := [f"- `{test}`" for test, pattern in found.items() if not pattern]:
+        lines += [f"Without a reason in `tests/mutants/idle.toml`: {len(left)}", "", *left, ""]
+    return lines
 
 
 def _tests(mutants, times):
