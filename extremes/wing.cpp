@@ -9,15 +9,15 @@ namespace extremes {
 
 namespace {
 
-constexpr std::string_view host = "host";
-constexpr std::string_view cuda = "cuda";
+constexpr std::string_view host_name = "host";
+constexpr std::string_view device_name = "cuda";
 
 } // namespace
 
 std::string name_of(Wing wing)
 {
     if (wing == Wing::ref) return "ref";
-    return std::string(wing == Wing::host ? host : cuda);
+    return std::string(wing == Wing::host ? host_name : device_name);
 }
 
 Format format_of(Wing wing)
@@ -35,16 +35,16 @@ std::vector<Wing> wings()
 
 bool on_device(const Method& method)
 {
-    return method.name.starts_with(cuda);
+    return method.name.starts_with(device_name);
 }
 
 void add_limits_of_device(Axis& axis)
 {
     std::vector<Limit> added;
     for (const Limit& limit : axis.limits) {
-        if (!limit.method.starts_with(host)) continue;
+        if (!limit.method.starts_with(host_name)) continue;
         Limit same = limit;
-        same.method.replace(0, host.size(), cuda);
+        same.method.replace(0, host_name.size(), device_name);
         const auto is_method = [&](const Method& method) { return method.name == same.method; };
         if (std::ranges::any_of(axis.methods, is_method)) added.push_back(std::move(same));
     }

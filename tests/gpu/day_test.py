@@ -29,14 +29,14 @@ class WithTheRealBuild(Day):
         for line, following in zip(lines, lines[1:]):
             self.assertTrue(line.startswith("    ") or following.startswith("    "), f"{line}: no command")
         programs = {word for step in all_steps(BUILD, "s") for word in step.programs}
-        self.assertEqual(len(programs), 3)
+        self.assertEqual(len(programs), 4)
         missing = [program for program in programs if not os.access(program, os.X_OK)]
         self.assertEqual(code, 2 if missing else 0, err)
         for program in missing:
             self.assertIn(str(program.relative_to(BUILD)), err)
 
     def test_without_a_gpu_every_step_is_skipped(self):
-        if not all(os.access(BUILD / name, os.X_OK) for name in ("plumbline", "tests/test_cuda", "tests/test_renders")):
+        if not all(os.access(BUILD / name, os.X_OK) for name in ("plumbline", "tests/test_cuda", "tests/test_renders", "tests/test_extremes")):
             self.skipTest("the build lacks a program")
         self.replace("bin/nvidia-smi", "echo 'NVIDIA-SMI has failed'; exit 9")
         code, out, err = self.day(build=BUILD)
@@ -178,7 +178,7 @@ class WithFakes(Day):
 
 class Carried(Day):
     def test_the_archive_holds_what_the_steps_need(self):
-        for program in ("plumbline", "tests/test_cuda", "tests/test_renders"):
+        for program in ("plumbline", "tests/test_cuda", "tests/test_renders", "tests/test_extremes"):
             (self.build / program).write_bytes(Path("/bin/true").read_bytes())
         archive = self.folder / "carried.tar.gz"
         subprocess.run(["bash", str(HERE / "carry.sh"), "--build", str(self.build), "-o", str(archive)], check=True,

@@ -80,6 +80,7 @@ def make_build(folder):
     write_program(folder / "plumbline", PLUMBLINE)
     write_program(folder / "tests/test_cuda", TESTS)
     write_program(folder / "tests/test_renders", TESTS)
+    write_program(folder / "tests/test_extremes", TESTS)
 
 
 def make_tools(folder):
