@@ -9,6 +9,7 @@
 #include "extremes/page.h"
 #include "extremes/results.h"
 #include "extremes/walk.h"
+#include "extremes/wing.h"
 #include "images/atomic_file.h"
 
 #include <CLI/CLI.hpp>
@@ -54,8 +55,11 @@ std::vector<WalkedAxis> chosen_axes(const ExtremesCommand& options)
         if (std::ranges::none_of(all, [&](const Axis& axis) {
                 return std::ranges::find(axis.methods, name, &extremes::Method::name) !=
                        axis.methods.end();
-            }))
-            throw std::invalid_argument(name + ": no such method (--list lists them)");
+            })) {
+            const std::string why = extremes::why_no_device(name);
+            throw std::invalid_argument(name + ": no such method (" +
+                                        (why.empty() ? "--list lists them" : why) + ")");
+        }
     std::vector<WalkedAxis> chosen;
     for (const Axis& axis : all) {
         const bool wanted =

@@ -33,9 +33,10 @@ std::vector<Wing> wings()
     return found;
 }
 
-bool on_device(const Method& method)
+std::string why_no_device(const std::string& method)
 {
-    return method.name.starts_with(device_name);
+    const fast::Device device = fast::find_device();
+    return method.starts_with(device_name) && !device.usable ? device.description : "";
 }
 
 void add_limits_of_device(Axis& axis)

@@ -21,8 +21,8 @@ Format format_of(Wing wing);
 /// The wings that can be run here: ref, host, and cuda where there is a GPU.
 std::vector<Wing> wings();
 
-/// Whether a method is the fast path on a GPU: its name begins with "cuda".
-bool on_device(const Method& method);
+/// Why no axis has a method of this name, if it is one of a GPU ("cuda", "cuda, path"); else empty.
+std::string why_no_device(const std::string& method);
 
 /// Adds to the limits of an axis those of its methods on a GPU: they compute what their twins on the
 /// host compute, in the same format, so the same limits hold.

@@ -1,6 +1,7 @@
 // `plumbline extremes` walks the axes that it is told, keeps what it has done, and refuses bad input in
 // one line.
 
+#include "cuda/launch/device.h"
 #include "tests/cli/run_program.h"
 
 #include <gtest/gtest.h>
@@ -143,6 +144,18 @@ TEST_P(ExtremesRefuses, InOneLineAndWritesNothing)
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
     EXPECT_NE(outcome.err.find(GetParam().message), std::string::npos) << outcome.err;
+}
+
+TEST(ExtremesCommand, SaysWhyThereIsNoMethodOfAGpu)
+{
+    const fast::Device device = fast::find_device();
+    if (device.usable) GTEST_SKIP() << "there is one: " << device.description;
+    for (const char* method : {"cuda", "cuda, hploc63"}) {
+        const Outcome outcome = run({"extremes", "tree-size", "--methods", method});
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_EQ(outcome.err, "plumbline: " + std::string(method) + ": no such method (" +
+                                   device.description + ")\n");
+    }
 }
 
 TEST(ExtremesCommand, RefusesResultsOfSomethingElse)
