@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -16,6 +17,7 @@ import sources
 import tables
 from keep import Outcome, Result
 from mutant import Mutant
+from project import Project
 from toy import Toy, toy_mutant
 from workers import Line
 
@@ -75,6 +77,19 @@ class Digests(unittest.TestCase):
             self.assertEqual(changed_by("tests/ref/trees/boxes.h"), ["test_ref_trees", "test_cuda", "relaxed_refit", True])
             self.assertEqual(changed_by("ref/box.cpp"), ["test_ref_trees", "test_cuda", "relaxed_refit", True])
             self.assertEqual(changed_by("docs/box.cpp"), [False])
+
+
+class Configured(unittest.TestCase):
+    def test_again_only_with_other_options(self):
+        with tempfile.TemporaryDirectory() as name:
+            project, folder = Project(pathlib.Path(name)), pathlib.Path(name, "0")
+            configure, stamp, compile_program = project.commands_to_build(folder, "release", "test_toy")
+            self.assertIn("-DPLUMBLINE_WARNINGS_AS_ERRORS=OFF", configure)
+            pathlib.Path(stamp[-1]).parent.mkdir(parents=True)
+            pathlib.Path(stamp[-1]).touch()
+            self.assertEqual(project.commands_to_build(folder, "release", "test_toy"), [compile_program])
+            os.rename(stamp[-1], stamp[-1] + "0")  # of an earlier version, with other options
+            self.assertEqual(len(project.commands_to_build(folder, "release", "test_toy")), 3)
 
 
 class GoogleTest(unittest.TestCase):

@@ -1,5 +1,6 @@
 """What is built and run: the test programs of a copy of the sources. The self test has a smaller project, with the same methods."""
 
+import hashlib
 import os
 import pathlib
 import re
@@ -34,10 +35,13 @@ class Project:
         kernels = "-DPLUMBLINE_QUICK_KERNELS=ON"
         # Each source file of tests for itself, so that few of them are compiled for a part of a program (parts.py).
         groups = "-DPLUMBLINE_TEST_GROUPS=OFF"
-        configure = ["cmake", "--preset", preset, "-DPLUMBLINE_CUDA=OFF", kernels, groups, listing]
+        # A mistake may leave a variable without use. The tests are to notice it, and not the compiler's warnings.
+        warnings = "-DPLUMBLINE_WARNINGS_AS_ERRORS=OFF"
+        configure = ["cmake", "--preset", preset, "-DPLUMBLINE_CUDA=OFF", kernels, groups, warnings, listing]
         compile_program = ["cmake", "--build", str(built), "--target", program, "-j", str(self.builders)]
-        # Once there are build rules, ninja configures again by itself when it must.
-        return [compile_program] if (built / "build.ninja").is_file() else [configure, compile_program]
+        # Once it is configured so, ninja configures again by itself when it must.
+        stamp = built / f"configured_{hashlib.sha256(repr(configure).encode()).hexdigest()[:8]}"
+        return [compile_program] if stamp.is_file() else [configure, ["cmake", "-E", "touch", str(stamp)], compile_program]
 
     def path_of(self, folder, preset, program):
         """Where a program that was built is; None if the target is no program."""
