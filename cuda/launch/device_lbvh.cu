@@ -1,10 +1,6 @@
 #include "cuda/launch/device_lbvh.h"
 
-#include "cuda/launch/device.h"
-#include "cuda/parallel/device_memory.cuh"
-#include "cuda/parallel/executor.cuh"
-#include "cuda/parallel/primitives.cuh"
-#include "cuda/parallel/stream.cuh"
+#include "cuda/launch/on_device.cuh"
 #include "cuda/trees/hploc.h"
 #include "cuda/trees/lbvh.h"
 #include "cuda/trees/surfaces.h"
@@ -46,12 +42,6 @@ EitherTree tree_for(Memory& memory, const CudaExecutor& executor, std::uint32_t 
     if (code_bits == fast::code_bits<std::uint32_t>)
         return EitherTree(std::in_place_index<0>, memory, executor, capacity);
     return EitherTree(std::in_place_index<1>, memory, executor, capacity);
-}
-
-void require_device()
-{
-    if (const Device device = find_device(); !device.usable)
-        throw std::runtime_error(device.description);
 }
 
 } // namespace
@@ -169,17 +159,16 @@ std::vector<Hit> intersect_on_device(std::span<const Triangle> triangles,
     require_device();
     if (rays.size() > std::numeric_limits<std::uint32_t>::max())
         throw std::invalid_argument(std::to_string(rays.size()) + " rays at once: at most 2^32 - 1");
-    const Stream stream;
-    DeviceMemory memory(stream.get());
-    CudaExecutor executor(stream.get());
-    const SurfaceTree tree(memory, executor, triangles, spheres);
-    const Buffer<Ray> asked(memory, rays);
-    Buffer<Hit> hits(memory, rays.size());
-    if (tree.has_spheres())
-        intersect_rays<true>(executor, tree, asked, hits);
-    else
-        intersect_rays<false>(executor, tree, asked, hits);
-    return hits.read(rays.size());
+    return on_device([&](DeviceMemory& memory, CudaExecutor& executor) {
+        const SurfaceTree tree(memory, executor, triangles, spheres);
+        const Buffer<Ray> asked(memory, rays);
+        Buffer<Hit> hits(memory, rays.size());
+        if (tree.has_spheres())
+            intersect_rays<true>(executor, tree, asked, hits);
+        else
+            intersect_rays<false>(executor, tree, asked, hits);
+        return hits.read(rays.size());
+    });
 }
 
 } // namespace fast

@@ -1,10 +1,6 @@
 #include "cuda/launch/batch_renderer.h"
-#include "cuda/launch/device.h"
 #include "cuda/launch/launch_stages.h"
-#include "cuda/parallel/device_memory.cuh"
-#include "cuda/parallel/executor.cuh"
-#include "cuda/parallel/primitives.cuh"
-#include "cuda/parallel/stream.cuh"
+#include "cuda/launch/on_device.cuh"
 
 #include <algorithm>
 
@@ -31,11 +27,7 @@ namespace {
 
 /// Throws an exception with the reason if there is no usable device.
 struct UsableDevice {
-    UsableDevice()
-    {
-        if (const Device device = find_device(); !device.usable)
-            throw std::runtime_error(device.description);
-    }
+    UsableDevice() { require_device(); }
 };
 
 /// The parts of a renderer on a GPU. The order of the members matters.

@@ -23,7 +23,7 @@ std::vector<float> probe_irradiance(const SceneArrays& arrays, std::span<const P
 {
     HostMemory memory;
     SerialExecutor executor;
-    return run_irradiance(memory, executor, arrays, probes);
+    return run_probes_in_scene<ProbeIrradiance, float>(memory, executor, arrays, probes);
 }
 
 } // namespace fast

@@ -1,6 +1,6 @@
 #include "cuda/launch/ray_pairs.h"
 
-#include "cuda/launch/run_ray_pairs.h"
+#include "cuda/launch/run_probes.h"
 #include "cuda/parallel/executor.h"
 
 namespace fast {
@@ -9,7 +9,7 @@ std::vector<PairOfHits> trace_ray_pairs(const SceneArrays& arrays, std::span<con
 {
     HostMemory memory;
     SerialExecutor executor;
-    return run_ray_pairs(memory, executor, arrays, pairs);
+    return run_probes_in_scene<TraceRayPairs, PairOfHits>(memory, executor, arrays, pairs);
 }
 
 } // namespace fast

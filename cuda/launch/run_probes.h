@@ -1,11 +1,15 @@
 #pragma once
 
-#include "cuda/launch/probes.h"
+// One launch of a kernel over an array, with any memory and executor.
+
 #include "cuda/scene/scene_in_memory.h"
+
+#include <span>
+#include <vector>
 
 namespace fast {
 
-/// What Kernel{probes, found} finds, with any memory and executor.
+/// What Kernel{probes, found} finds.
 template <class Kernel, class Found, class Probe, Executor E>
 std::vector<Found> run_probes(Memory& memory, E& executor, std::span<const Probe> probes)
 {
@@ -15,16 +19,16 @@ std::vector<Found> run_probes(Memory& memory, E& executor, std::span<const Probe
     return found.read(probes.size());
 }
 
-/// probe_irradiance with any memory and executor.
-template <Executor E>
-std::vector<float> run_irradiance(Memory& memory, E& executor, const SceneArrays& arrays,
-                                  std::span<const PointProbe> probes)
+/// What Kernel<any_needs>{scene, probes, found} finds.
+template <template <Needs> class Kernel, class Found, class Probe, Executor E>
+std::vector<Found> run_probes_in_scene(Memory& memory, E& executor, const SceneArrays& arrays,
+                                       std::span<const Probe> probes)
 {
     const SceneInMemory scene(memory, executor, arrays, Camera{});
-    const Buffer<PointProbe> asked(memory, probes);
-    Buffer<float> found(memory, probes.size());
+    const Buffer<Probe> asked(memory, probes);
+    Buffer<Found> found(memory, probes.size());
     executor(static_cast<std::uint32_t>(probes.size()),
-             ProbeIrradiance<any_needs>{scene.view<any_needs>(), asked.all(), found.all()});
+             Kernel<any_needs>{scene.view<any_needs>(), asked.all(), found.all()});
     return found.read(probes.size());
 }
 
