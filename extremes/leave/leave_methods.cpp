@@ -107,22 +107,15 @@ void run_fast(Wing wing, MakeLeaveCase make, double parameter, Random& random, i
 
 std::vector<Method> leave_methods(MakeLeaveCase make, bool tricks)
 {
-    const Method ref_method{"ref", Format::binary64,
-                            [make](double parameter, Random& random, int cases, Tally& tally) {
-                                run_ref(make, parameter, random, cases, tally);
-                            }};
-    const auto fast_method = [&](Wing wing) {
-        return Method{name_of(wing), Format::binary32,
-                      [wing, make](double parameter, Random& random, int cases, Tally& tally) {
-                          run_fast(wing, make, parameter, random, cases, tally);
-                      }};
-    };
     std::vector<Method> methods;
     for (const Wing wing : wings())
-        if (wing == Wing::ref)
-            methods.push_back(ref_method);
-        else
-            methods.push_back(fast_method(wing));
+        methods.push_back({name_of(wing), format_of(wing),
+                           [wing, make](double parameter, Random& random, int cases, Tally& tally) {
+                               if (wing == Wing::ref)
+                                   run_ref(make, parameter, random, cases, tally);
+                               else
+                                   run_fast(wing, make, parameter, random, cases, tally);
+                           }});
     if (tricks)
         for (Method& trick : leave_tricks(make)) methods.push_back(std::move(trick));
     return methods;

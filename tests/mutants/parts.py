@@ -72,7 +72,7 @@ class Objects(NamedTuple):
         output = self.link.index("-o") + 1
         file = self.link[output].rpartition("/")[0] + "/" + name
         words = [file if i == output else word for i, word in enumerate(self.link) if word not in self.defined and not _is_ours(word)]
-        first = next(i for i, word in enumerate(words) if word == "-o")
+        first = words.index("-o")
         started = sorted({program for part in needed for program in self.programs[part]})
         return Part((*needed, *started), (*words[:first], *needed, *words[first:]), file)
 

@@ -138,11 +138,13 @@ class _Trial:
         for group in gtest.groups(times):
             if len(self.result.killers) < ENOUGH:
                 self._run_whole_group("release", program, {test: times[test] for test in group})
-        for group in gtest.groups(idle.of({test: time for test, time in times.items() if ("release", program, test) not in self.tried})):
+        for group in gtest.groups(idle.of(self._without_tried(program, times))):
             self._run_whole_group("release", program, {test: times[test] for test in group})
 
     def _not_tried(self, program):
-        times = self.times.get(f"release/{program}", {})
+        return self._without_tried(program, self.times.get(f"release/{program}", {}))
+
+    def _without_tried(self, program, times):
         return {test: time for test, time in times.items() if ("release", program, test) not in self.tried}
 
     def _not_tried_in_the_files(self, preset, program):
