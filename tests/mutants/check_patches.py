@@ -94,7 +94,7 @@ def first_tests_that_are_none(root, tests):
 def idle_tests_that_are_none(root, tests):
     """Sentences about idle.toml, which names tests that notice no mutant."""
     file = root / "tests/mutants/idle.toml"
-    return [f"idle.toml: there is no test {pattern}" for pattern in judged.entries(file) if not exists(pattern, tests)]
+    return [f"idle.toml: there is no test {pattern}" for pattern in judged.reasons(file) if not exists(pattern, tests)]
 
 
 def main(root=mutant.ROOT):

@@ -6,10 +6,12 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import generate
 import judged
 from cpp_source import Source
+from mutant import Mutant
 from operands import declared_types
 
 
@@ -84,6 +86,18 @@ class PresentSources(unittest.TestCase):
 
 @unittest.skipIf(sys.version_info < (3, 11), "python3 is older than 3.11, which reads TOML")
 class Judged(unittest.TestCase):
+    def test_likely_tests_are_those_of_patches_of_the_same_file(self):
+        patches = [
+            Mutant("a", "a", "+++ b/ref/trees/x.h\n", ("test_ref_trees",), ("A.One", "A.Two")),
+            Mutant("b", "b", "+++ b/ref/trees/x.h\n", ("test_ref_trees",), ("A.Two",)),
+            Mutant("c", "c", "+++ b/ref/trees/x.h\n", ("test_ref_trees",), ("A.Races",), sanitizer="thread"),
+            Mutant("d", "d", "+++ b/ref/trees/x.h\n", ("test_check",), ("A.Other",)),
+            Mutant("e", "e", "+++ b/ref/trees/y.h\n", ("test_ref_trees",), ("A.OfAnotherFile",)),
+        ]
+        with mock.patch.object(generate, "_patches", lambda: patches):
+            self.assertEqual(generate.likely("ref/trees/x.h", ("test_ref_trees", "test_ref_transport")), ("A.Two", "A.One"))
+            self.assertEqual(generate.likely("ref/trees/z.h", ("test_ref_trees",)), ())
+
     def test_what_was_judged_is_still_there(self):
         self.assertEqual(judged.faults({c.name for c in every()}), [])
 

@@ -5,7 +5,9 @@
 
 What a test could tell is not judged: the test is written. Of tests that notice no mutant, idle.toml has the reason to exist:
 
-    "Suite.Name" = "what it sees that no mutant is about"      # gtest's wildcards are allowed
+    [[tests]]
+    names = ["Suite.Name", "Other.*"]      # as in the code, without the prefix and the parameter of an instance
+    reason = "what they see that no mutant is about"
 """
 
 import functools
@@ -32,12 +34,17 @@ def equivalent(file=FILE):
 @functools.cache
 def reasons(file=IDLE):
     """The reason to exist of tests that notice no mutant, by pattern."""
-    return entries(file)
+    return {name: group["reason"] for group in entries(file).get("tests", []) for name in group["names"]}
 
 
 def reason_of(test, known):
-    """The pattern of `known` (reasons) that names the test; nothing if there is none."""
-    return next((pattern for pattern in known if gtest.matching(pattern, [test])), "")
+    """The reason of `known` (reasons) for a test ("All/Suite.Name/3"); nothing if there is none."""
+    suite, _, name = test.partition(".")
+    for part in suite.split("/"):
+        plain = f"{part}.{name.partition('/')[0]}"
+        if found := next((pattern for pattern in known if gtest.matching(pattern, [plain])), ""):
+            return known[found]
+    return ""
 
 
 def faults(names, file=FILE):

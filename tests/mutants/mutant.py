@@ -32,8 +32,8 @@ PRESETS = {"": "release", "thread": "tsan"}  # by sanitizer
 
 @dataclasses.dataclass(frozen=True)
 class Mutant:
-    """`diff`: what `git apply` gets. `fails` may be empty: then any test of `programs` may notice it. `equivalent`: the reason
-    why no test can see it, of a mutant for which this was shown; it may survive."""
+    """`diff`: what `git apply` gets. `fails` may be empty: then any test of `programs` may notice it, and those that `likely`
+    names are tried first. `equivalent`: the reason why no test can see it, of a mutant for which this was shown; it may survive."""
 
     name: str
     title: str
@@ -48,6 +48,7 @@ class Mutant:
     cause: str = ""
     removed: str = ""
     equivalent: str = ""
+    likely: tuple[str, ...] = ()
 
     @property
     def files(self):

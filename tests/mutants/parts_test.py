@@ -12,6 +12,7 @@ from unittest import mock
 
 import check_patches
 import gtest
+import judged
 import mutant
 import sources
 import tables
@@ -193,11 +194,20 @@ class Tables(unittest.TestCase):
         self.assertIn("Without a reason in `tests/mutants/idle.toml`: 1\n\n- `A.Idle`", without)
         reasons = {"B.*": "of other tests", "A.Id*": "it sees crashes"}
         reasoned = tables.as_markdown(self.mutants, self.results, self.times, {}, reasons)
-        self.assertIn("| `A.Id*` | 1 | it sees crashes |", reasoned)
+        self.assertIn("| `A` | 1 | it sees crashes |", reasoned)
         self.assertNotIn("Without a reason", reasoned)
         self.assertNotIn("of other tests", reasoned)
         table = json.loads(tables.as_json(self.mutants, self.results, self.times, {}, reasons))
-        self.assertEqual(table["tests_that_kill_nothing"], {"A.Idle": "A.Id*"})
+        self.assertEqual(table["tests_that_kill_nothing"], {"A.Idle": "it sees crashes"})
+
+    def test_suites_stand_without_the_parts_of_an_instance(self):
+        found = {"All/Sum.Adds/3": "r", "Typed/0.Works": "r", "All/Typed.Works": "r", "Other.Is": ""}
+        self.assertEqual(tables._suites(found, "r"), ["`Sum`", "`Typed`"])
+
+    def test_the_reason_of_an_instance_is_that_of_its_test(self):
+        known = {"Sum.Adds": "of one", "Typed.*": "of types"}
+        for test, reason in (("All/Sum.Adds/3", "of one"), ("Typed/0.Works", "of types"), ("Sum.Adds", "of one"), ("Sum.Subtracts", ""), ("Sum.AddsUp", "")):
+            self.assertEqual(judged.reason_of(test, known), reason, test)
 
     def test_without_weighing_no_test_is_called_idle(self):
         results = [Result("a", "ref/x/f.cpp", "a", Outcome.KILLED, "A.Cheap")]
@@ -214,7 +224,7 @@ class Check(unittest.TestCase):
             (root / "tests/sum_test.cpp").write_text("TEST(Sum, Adds)\nRC_GTEST_PROP(Kinds, Fit,\nTYPED_TEST(Typed, Works)\n")
             (root / "tests/mutants").mkdir()
             (root / "tests/mutants/first_tests.txt").write_text(f"{first}\n")
-            (root / "tests/mutants/idle.toml").write_text(f'"{idle}" = "a reason"\n')
+            (root / "tests/mutants/idle.toml").write_text(f'[[tests]]\nnames = ["{idle}"]\nreason = "a reason"\n')
             patches.mkdir()
             for name, text in files.items():
                 (patches / name).write_text(text)

@@ -58,6 +58,15 @@ class Outcomes(Runner):
         tried = {name for _, argument, *_ in self.project.ran[1:] for name in argument.partition("=")[2].split(":")}
         self.assertEqual(tried, {"Slow.Waits", "Sum.Adds", "Sum.TakesZero", "Sum.IsSmall"})
 
+    def test_likely_tests_are_tried_first_and_may_pass_or_be_none(self):
+        first = dataclasses.replace(toy_mutant("first", MINUS), likely=("Sum.None", "Sum.Adds"))
+        result = self.run_mutants(first)
+        self.assertEqual((result.outcome, result.killed_by, result.wrong), (Outcome.KILLED, "Sum.Adds", []))
+        self.assertEqual(len(self.project.ran), 2)  # the first is that of the unchanged sources
+        other = dataclasses.replace(toy_mutant("other", MINUS), likely=("Slow.Waits",))
+        result = self.run_mutants(other)
+        self.assertEqual((result.outcome, result.wrong), (Outcome.KILLED, []))
+
     def test_a_syntax_error_is_no_kill(self):
         result = self.run_mutants(toy_mutant("syntax", "echo $(($1 - $2)", ["Sum.Adds"]))
         self.assertEqual((result.outcome, result.killed_by), (Outcome.NO_BUILD, ""))

@@ -102,11 +102,18 @@ def _of_weighed_tests(mutants, results, times, reasons):
     unused = idle(mutants, results, times)
     lines += ["## Tests that notice none of these mutants", "", f"{len(unused)} of {_tests(mutants, times)}", ""]
     found = {test: judged.reason_of(test, reasons) for test in unused}
-    rows = [(f"`{pattern}`", list(found.values()).count(pattern), reasons[pattern]) for pattern in sorted(set(found.values()) - {""})]
-    lines += _table(("tests", "number", "reason to exist"), rows)
-    if left := [f"- `{test}`" for test, pattern in found.items() if not pattern]:
+    lines += ["A test was run with the mutants whose heads name a test of the same file; if there are none, with no mutant.", ""]
+    rows = [(", ".join(_suites(found, reason)), list(found.values()).count(reason), reason) for reason in dict.fromkeys(found.values()) if reason]
+    lines += _table(("tests", "number", "reason to exist"), sorted(rows))
+    if left := [f"- `{test}`" for test, reason in found.items() if not reason]:
         lines += [f"Without a reason in `tests/mutants/idle.toml`: {len(left)}", "", *left, ""]
     return lines
+
+
+def _suites(found, reason):
+    """The suites of the tests with this reason, without the prefix of an instance ("All/Suite") or the number of a type ("Suite/0")."""
+    parts = [test.partition(".")[0].split("/") for test, other in found.items() if other == reason]
+    return sorted({f"`{[part for part in suite if not part.isdigit()][-1]}`" for suite in parts})
 
 
 def _tests(mutants, times):
