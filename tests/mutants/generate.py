@@ -65,10 +65,12 @@ class Candidate:
 
 
 def likely(path, programs):
-    """The tests that notice most of the mutants of patches/ that change this file. To build what holds them takes a fraction of
-    the time that the whole program takes."""
-    of_file = [made for made in _patches() if path in made.files and not made.sanitizer and set(made.programs) <= set(programs)]
-    counted = collections.Counter(test for made in of_file for test in made.fails)
+    """The tests that notice most of the mutants of patches/ that change this file; if there are none, of those that change its
+    folder. To build what holds them takes a fraction of the time that the whole program takes."""
+    usable = [made for made in _patches() if not made.sanitizer and set(made.programs) <= set(programs)]
+    of_file = [made for made in usable if path in made.files]
+    of_folder = [made for made in usable if any(file.rpartition("/")[0] == path.rpartition("/")[0] for file in made.files)]
+    counted = collections.Counter(test for made in of_file or of_folder for test in made.fails)
     return tuple(test for test, _ in counted.most_common(LIKELY))
 
 

@@ -96,7 +96,8 @@ class Judged(unittest.TestCase):
         ]
         with mock.patch.object(generate, "_patches", lambda: patches):
             self.assertEqual(generate.likely("ref/trees/x.h", ("test_ref_trees", "test_ref_transport")), ("A.Two", "A.One"))
-            self.assertEqual(generate.likely("ref/trees/z.h", ("test_ref_trees",)), ())
+            self.assertEqual(generate.likely("ref/trees/z.h", ("test_ref_trees",)), ("A.Two", "A.One", "A.OfAnotherFile"))
+            self.assertEqual(generate.likely("ref/transport/z.h", ("test_ref_trees",)), ())
 
     def test_what_was_judged_is_still_there(self):
         self.assertEqual(judged.faults({c.name for c in every()}), [])
