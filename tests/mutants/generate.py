@@ -29,7 +29,7 @@ PROGRAMS = {
     "ref/trees": ("test_ref_trees", "test_ref_transport"),
     "ref/transport": ("test_ref_transport",),
     "cuda/trees": ("test_cuda",),
-    "cuda/transport": ("test_cuda",),
+    "cuda/transport": ("test_cuda", "test_extremes"),  # probes.h is for the second
 }
 KINDS = [
     *(operators.plus_minus, operators.times_over, operators.drop_factor, operators.forget_call, operators.less),

@@ -1,4 +1,4 @@
-// The fast path's sine and cosine: one form for one number and for many.
+// The fast path's sine and cosine: one form for one number and for many. Which colours are black.
 
 #include "cuda/transport/sampling.h"
 
@@ -34,6 +34,17 @@ TEST(OnCircle, IsExactAtTheQuarters)
         fast::on_circle(3.0f, 0.25f * static_cast<float>(quarter), x, y);
         EXPECT_EQ(x, quarter == 0 ? 3.0f : quarter == 2 ? -3.0f : 0.0f);
         EXPECT_EQ(y, quarter == 1 ? 3.0f : quarter == 3 ? -3.0f : 0.0f);
+    }
+}
+
+// A black throughput ends a walk, so each channel must count.
+TEST(IsBlack, IsTheColourWithoutLightInAnyChannel)
+{
+    EXPECT_TRUE(fast::is_black(fast::Vec3(0.0f)));
+    for (int channel = 0; channel < 3; ++channel) {
+        fast::Vec3 color(0.0f);
+        color[channel] = 0x1p-149f; // the smallest float
+        EXPECT_FALSE(fast::is_black(color)) << "channel " << channel;
     }
 }
 
