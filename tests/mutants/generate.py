@@ -61,15 +61,15 @@ class Candidate:
 
     def mutant(self):
         programs, equivalent = PROGRAMS[self.folder], judged.equivalent().get(self.name, "")
-        return Mutant(self.name, self.title, self.diff, programs, equivalent=equivalent, likely=likely(self.path, programs))
+        return Mutant(self.name, self.title, self.diff, programs, equivalent=equivalent, likely=likely(self.path, self.folder))
 
 
-def likely(path, programs):
+def likely(path, folder):
     """The tests that notice most of the mutants of patches/ that change this file; if there are none, of those that change its
     folder. To build what holds them takes a fraction of the time that the whole program takes."""
-    usable = [made for made in _patches() if not made.sanitizer and set(made.programs) <= set(programs)]
+    usable = [made for made in _patches() if not made.sanitizer and set(made.programs) <= set(PROGRAMS[folder])]
     of_file = [made for made in usable if path in made.files]
-    of_folder = [made for made in usable if any(file.rpartition("/")[0] == path.rpartition("/")[0] for file in made.files)]
+    of_folder = [made for made in usable if any(file.startswith(f"{folder}/") for file in made.files)]
     counted = collections.Counter(test for made in of_file or of_folder for test in made.fails)
     return tuple(test for test, _ in counted.most_common(LIKELY))
 

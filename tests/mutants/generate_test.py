@@ -95,9 +95,9 @@ class Judged(unittest.TestCase):
             Mutant("e", "e", "+++ b/ref/trees/y.h\n", ("test_ref_trees",), ("A.OfAnotherFile",)),
         ]
         with mock.patch.object(generate, "_patches", lambda: patches):
-            self.assertEqual(generate.likely("ref/trees/x.h", ("test_ref_trees", "test_ref_transport")), ("A.Two", "A.One"))
-            self.assertEqual(generate.likely("ref/trees/z.h", ("test_ref_trees",)), ("A.Two", "A.One", "A.OfAnotherFile"))
-            self.assertEqual(generate.likely("ref/transport/z.h", ("test_ref_trees",)), ())
+            self.assertEqual(generate.likely("ref/trees/x.h", "ref/trees"), ("A.Two", "A.One"))
+            self.assertEqual(generate.likely("ref/trees/z.h", "ref/trees"), ("A.Two", "A.One", "A.OfAnotherFile"))
+            self.assertEqual(generate.likely("ref/transport/z.h", "ref/transport"), ())
 
     def test_what_was_judged_is_still_there(self):
         self.assertEqual(judged.faults({c.name for c in every()}), [])

@@ -46,6 +46,12 @@ def matching(pattern, names):
     return [name for name in names if fnmatch.fnmatchcase(name, escaped)]
 
 
+def in_the_code(test):
+    """What a test ("All/Suite.Name/3", "Suite/0.Name") may be called in the code: Suite.Name for each part of the suite's name."""
+    suite, _, name = test.partition(".")
+    return [f"{part}.{name.partition('/')[0]}" for part in suite.split("/")]
+
+
 def filter_argument(names):
     return "--gtest_filter=" + ":".join(names)
 

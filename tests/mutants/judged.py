@@ -39,12 +39,8 @@ def reasons(file=IDLE):
 
 def reason_of(test, known):
     """The reason of `known` (reasons) for a test ("All/Suite.Name/3"); nothing if there is none."""
-    suite, _, name = test.partition(".")
-    for part in suite.split("/"):
-        plain = f"{part}.{name.partition('/')[0]}"
-        if found := next((pattern for pattern in known if gtest.matching(pattern, [plain])), ""):
-            return known[found]
-    return ""
+    names = gtest.in_the_code(test)
+    return next((reason for pattern, reason in known.items() if gtest.matching(pattern, names)), "")
 
 
 def faults(names, file=FILE):

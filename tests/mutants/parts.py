@@ -10,6 +10,8 @@ import shlex
 import subprocess
 from typing import NamedTuple
 
+import gtest
+
 TEST_BODY = re.compile(r"(\w+_Test)(?:I.*)?8TestBodyEv$")  # as compilers of Linux write Suite_Name_Test::TestBody()
 
 
@@ -112,12 +114,8 @@ def _named(build, file, programs):
 
 def _is_body_of(test, body):
     """Whether `body` (such as "..16RadixTree_Of_Test") is that of a test ("RadixTree.Of", "Sizes/RadixTree.Of/3", "RadixTree/0.Of")."""
-    suite, _, name = test.partition(".")
-    for suite_name in suite.split("/"):
-        text = f"{suite_name}_{name.split('/')[0]}_Test"
-        if body.endswith(f"{len(text)}{text}"):
-            return True
-    return False
+    texts = [f"{name.replace('.', '_')}_Test" for name in gtest.in_the_code(test)]
+    return any(body.endswith(f"{len(text)}{text}") for text in texts)
 
 
 def _is_ours(name):

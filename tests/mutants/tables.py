@@ -4,11 +4,13 @@ import collections
 import dataclasses
 import json
 import pathlib
+import types
 
 import judged
 from keep import Outcome
 
 TEN = 10
+NO_REASONS = types.MappingProxyType({})
 
 
 def score(results):
@@ -47,7 +49,7 @@ def idle(mutants, results, times):
     return sorted(name for key in used for name in times.get(key, {}) if name not in killing)
 
 
-def as_json(mutants, results, times, run, reasons=()):
+def as_json(mutants, results, times, run, reasons=NO_REASONS):
     """`reasons`: of tests that notice nothing (judged.py)."""
     complete = bool(results) and all(result.weighed for result in results)
     counted = {outcome.value: sum(result.outcome is outcome for result in results) for outcome in Outcome}
@@ -65,7 +67,7 @@ def as_json(mutants, results, times, run, reasons=()):
     return json.dumps(table, indent=1) + "\n"
 
 
-def as_markdown(mutants, results, times, run, reasons=()):
+def as_markdown(mutants, results, times, run, reasons=NO_REASONS):
     lines = ["# Mutants", "", *(f"{key.replace('_', ' ')}: {value}  " for key, value in run.items()), ""]
     lines += _table(
         ("area", "killed", "mutants", "score"),
