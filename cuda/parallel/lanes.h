@@ -10,6 +10,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <cstring>
 
 #if !defined(__CUDACC__) && defined(__SSE__)
 #include <immintrin.h>
@@ -96,6 +97,12 @@ HD inline LaneBits not_above(const Lanes& a, const Lanes& b)
     LaneBits bits = 0;
     for (int i = 0; i < lane_count; ++i) bits |= a[i] <= b[i] ? 1u << i : 0u;
     return bits;
+}
+
+/// x where a < b, else y.
+HD inline Lanes where_below(const Lanes& a, const Lanes& b, const Lanes& x, const Lanes& y)
+{
+    return detail::each_lane([&](int i) { return a[i] < b[i] ? x[i] : y[i]; });
 }
 
 #else
@@ -190,6 +197,13 @@ inline Lanes smaller(const Lanes& a, const Lanes& b)
         [&](int i) { return a.parts[i] < b.parts[i] ? a.parts[i] : b.parts[i]; });
 }
 
+/// x where a < b, else y.
+inline Lanes where_below(const Lanes& a, const Lanes& b, const Lanes& x, const Lanes& y)
+{
+    return detail::each_register(
+        [&](int i) { return a.parts[i] < b.parts[i] ? x.parts[i] : y.parts[i]; });
+}
+
 /// Where a <= b; not where one of them is NaN.
 inline LaneBits not_above(const Lanes& a, const Lanes& b)
 {
@@ -206,6 +220,20 @@ inline LaneBits not_above(const Lanes& a, const Lanes& b)
 }
 
 #endif
+
+/// Eight floats from memory, aligned as one float.
+HD inline Lanes load_lanes(const float* from)
+{
+    Lanes result;
+    std::memcpy(&result, from, sizeof result);
+    return result;
+}
+
+/// Where a == b; not where one of them is NaN.
+HD inline LaneBits equal(const Lanes& a, const Lanes& b)
+{
+    return not_above(a, b) & not_above(b, a);
+}
 
 /// Where a >= 0; not where a is NaN.
 HD inline LaneBits non_negative(const Lanes& a)

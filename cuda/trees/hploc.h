@@ -4,7 +4,7 @@
 // pair during a walk up the radix tree; the pairs with the smallest common box are merged first
 // [Benthin et al. 2024; Meister and Bittner 2018 for the merging].
 //
-// The build is one launch without a transfer to the host, with one thread per walk, as in the refit.
+// The walks are one launch without a transfer to the host, with one thread per walk, as in the refit.
 // Each node of the radix tree passes its clusters to its parent, at most `most_handed_on` of them. The
 // second of two siblings to arrive joins both lists, and merges clusters if there are too many.
 
@@ -12,6 +12,7 @@
 #include "cuda/parallel/buffer.h"
 #include "cuda/parallel/executor.h"
 #include "cuda/trees/lbvh.h"
+#include "cuda/trees/nearest_clusters.h"
 
 #include <cstdint>
 #include <limits>
@@ -21,20 +22,6 @@ namespace fast {
 
 /// The most clusters that a node passes to its parent: half a warp in the paper.
 constexpr std::uint32_t most_handed_on = 16;
-/// The distance in the list, to both sides, within which the nearest neighbour of a cluster is
-/// searched.
-constexpr std::uint32_t search_radius = 8;
-
-/// A subtree that has no parent yet. `slot` is the number of its first leaf; slots increase along
-/// every list. When two clusters merge, the number of the new node follows from the slot of the
-/// second, and the merged cluster keeps the slot of the first. So node numbers are unique and do not
-/// depend on the schedule.
-struct Cluster {
-    Aabb box;
-    std::uint32_t root; // as a child (node.h)
-    std::uint32_t slot;
-    std::uint32_t height; // edges from the root to the deepest leaf
-};
 
 /// The node that has no parent, and the height of the tree.
 struct Top {
@@ -48,21 +35,32 @@ struct ClusterList {
     std::uint32_t count;
 };
 
-/// Kernel over leaves: walks up the radix tree and makes the nodes of the new tree.
-struct MergeClusters {
+/// Kernel over leaves: makes each a cluster. This could be the first step of the walks below. But the
+/// boxes lie anywhere in memory, and a processor reads many of them at the same time only if no atomic
+/// operation lies between.
+struct BeginClusters {
     std::span<const Aabb> boxes;
     std::span<const std::uint32_t> primitives;
+    std::span<Cluster> clusters; // one per leaf
+
+    HD void operator()(std::uint32_t leaf) const
+    {
+        clusters[leaf] = {boxes[primitives[leaf]], leaf | leaf_bit, leaf, 0};
+    }
+};
+
+/// Kernel over leaves: walks up the radix tree and makes the nodes of the new tree.
+struct MergeClusters {
     std::span<Node> radix; // its links are read, and its arrivals counted
     std::span<const std::uint32_t> radix_leaf_links;
     std::span<ClusterList> handed_on; // two per node: by the left child, by the right child
-    std::span<Cluster> clusters;      // one per leaf
+    std::span<Cluster> clusters;      // one per leaf; at first the leaves themselves
     std::span<Node> nodes;
     std::span<std::uint32_t> leaf_links;
     std::span<Top> top; // one
 
     HD void operator()(std::uint32_t leaf) const
     {
-        clusters[leaf] = {boxes[primitives[leaf]], leaf | leaf_bit, leaf, 0};
         ClusterList list{leaf, 1};
         std::uint32_t link = radix_leaf_links[leaf];
         while (link != no_node) {
@@ -92,8 +90,8 @@ private:
     /// clusters left.
     [[nodiscard]] HD std::uint32_t merge_nearest(const ClusterList& list) const
     {
-        std::uint32_t nearest[2 * most_handed_on];
-        for (std::uint32_t i = 0; i < list.count; ++i) nearest[i] = nearest_of(list, i);
+        const NearestOf<2 * most_handed_on> nearest(
+            std::span<const Cluster>(clusters).subspan(list.first, list.count));
         std::uint32_t kept = 0;
         for (std::uint32_t i = 0; i < list.count; ++i) {
             const std::uint32_t j = nearest[i];
@@ -103,43 +101,6 @@ private:
             clusters[list.first + kept++] = mutual ? merged(cluster, clusters[list.first + j]) : cluster;
         }
         return kept;
-    }
-
-    /// The neighbour whose common box with cluster i is the smallest. Of several it takes the other half
-    /// of the pair (2 k, 2 k + 1) that i belongs to, if both boxes are equal, or else the first pair,
-    /// ordered by both numbers. So the best pair of all is mutual, and every round merges something; and
-    /// a round merges half of many equal boxes, so that they do not give a long chain of nodes.
-    [[nodiscard]] HD std::uint32_t nearest_of(const ClusterList& list, std::uint32_t i) const
-    {
-        const std::uint32_t begin = i < search_radius ? 0 : i - search_radius;
-        const std::uint32_t end = i + search_radius < list.count ? i + search_radius + 1 : list.count;
-        const Aabb box = clusters[list.first + i].box;
-        const std::uint32_t paired = i ^ 1;
-        if (paired < list.count && same_box(box, clusters[list.first + paired].box)) return paired;
-        std::uint32_t best = i == begin ? i + 1 : begin;
-        float smallest = area_of_both(box, clusters[list.first + best].box);
-        for (std::uint32_t j = best + 1; j < end; ++j) {
-            if (j == i) continue;
-            const float area = area_of_both(box, clusters[list.first + j].box);
-            if (area < smallest) {
-                smallest = area;
-                best = j;
-            }
-        }
-        return best;
-    }
-
-    [[nodiscard]] HD static bool same_box(const Aabb& a, const Aabb& b)
-    {
-        return a.lower == b.lower && a.upper == b.upper;
-    }
-
-    /// The area of the union; infinity instead of NaN (0 * infinity), so that any two areas can be
-    /// compared.
-    [[nodiscard]] HD static float area_of_both(const Aabb& a, const Aabb& b)
-    {
-        const float area = half_area(unite(a, b));
-        return area == area ? area : std::numeric_limits<float>::infinity();
     }
 
     /// Merges two clusters into one, under a new node.
@@ -196,7 +157,8 @@ public:
         : nodes_(memory, capacity), leaf_links_(memory, capacity),
           handed_on_(memory, 2 * std::size_t{capacity}), clusters_(memory, capacity), top_(memory, 1)
     {}
-    /// Queues the build over the primitives of the last build of `sorted`, in the order of its leaves.
+    /// Queues the build over the primitives of the last build of `sorted` (Lbvh::build_links is enough),
+    /// in the order of its leaves.
     /// The conditions on the boxes are those of Lbvh::build.
     template <Executor E, class Code>
     void build(E& executor, std::span<const Aabb> boxes, Lbvh<Code>& sorted)
@@ -205,9 +167,11 @@ public:
         if (count_ == 0) return;
         const std::span<Node> nodes = nodes_.first(count_ - 1);
         const std::span<std::uint32_t> leaf_links = leaf_links_.first(count_);
-        executor(count_, MergeClusters{boxes, sorted.primitives(), sorted.nodes(), sorted.leaf_links(),
-                                       handed_on_.first(2 * std::size_t{count_}),
-                                       clusters_.first(count_), nodes, leaf_links, top_.all()});
+        const std::span<Cluster> clusters = clusters_.first(count_);
+        executor(count_, BeginClusters{boxes, sorted.primitives(), clusters});
+        executor(count_, MergeClusters{sorted.nodes(), sorted.leaf_links(),
+                                       handed_on_.first(2 * std::size_t{count_}), clusters, nodes,
+                                       leaf_links, top_.all()});
         executor(1, MoveRootToFront{top_.all(), nodes, leaf_links});
     }
 

@@ -52,6 +52,21 @@ public:
     template <Executor E, std::invocable<Stage> Finished>
     void build(E& executor, std::span<const Aabb> boxes, const Finished& finished)
     {
+        build_links(executor, boxes, finished);
+        refit(executor, boxes);
+        finished(Stage::refit);
+    }
+    template <Executor E>
+    void build(E& executor, std::span<const Aabb> boxes)
+    {
+        build(executor, boxes, [](Stage) {});
+    }
+
+    /// build without the last stage: the order of the leaves and the links between nodes. The bounds in
+    /// the nodes are undefined.
+    template <Executor E, std::invocable<Stage> Finished>
+    void build_links(E& executor, std::span<const Aabb> boxes, const Finished& finished)
+    {
         if (boxes.size() > leaf_links_.size())
             throw std::length_error("a tree over " + std::to_string(boxes.size()) +
                                     " primitives does not fit where there is room for " +
@@ -78,14 +93,11 @@ public:
         if (count_ == 1) executor(1, UnlinkOnlyLeaf{leaf_links});
         executor(internal_nodes(count_), BuildRadixTree<Code>{codes.current, nodes, leaf_links});
         finished(Stage::tree);
-
-        refit(executor, boxes);
-        finished(Stage::refit);
     }
     template <Executor E>
-    void build(E& executor, std::span<const Aabb> boxes)
+    void build_links(E& executor, std::span<const Aabb> boxes)
     {
-        build(executor, boxes, [](Stage) {});
+        build_links(executor, boxes, [](Stage) {});
     }
 
     /// Queues a refit of the same tree to new boxes of the same primitives, for example after they

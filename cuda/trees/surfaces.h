@@ -138,7 +138,7 @@ private:
         executor(sphere_count, BoundSpheres{spheres_.all(), boxes.all().subspan(triangle_count_)});
 
         Lbvh<Code> tree(memory, executor, count);
-        tree.build(executor, boxes.all());
+        tree.build_links(executor, boxes.all());
         const std::vector<Aabb> on_host = boxes.read(count);
         throw_if_rejected(tree.first_rejected(), on_host);
         Aabb bounds = empty_aabb();
@@ -147,13 +147,15 @@ private:
         if (builder_ == TreeBuilder::hploc30 || builder_ == TreeBuilder::hploc63) {
             Hploc clustered(memory, count);
             clustered.build(executor, boxes.all(), tree);
-            WideTree wide(memory, executor, std::as_const(clustered).nodes(), tree.primitives(),
-                          given.all());
+            WideTree wide(memory, executor, std::as_const(clustered).nodes(), clustered.leaf_links(),
+                          tree.primitives(), given.all());
             if (wide.levels() <= deepest_tree) return wide;
             // The height of the radix tree is bounded, that of this one is not (hploc.h).
             builder_ = builder_ == TreeBuilder::hploc30 ? TreeBuilder::morton30 : TreeBuilder::morton63;
         }
-        return {memory, executor, std::as_const(tree).nodes(), tree.primitives(), given.all()};
+        tree.refit(executor, boxes.all());
+        return {memory,     executor, std::as_const(tree).nodes(), tree.leaf_links(), tree.primitives(),
+                given.all()};
     }
 
     std::uint32_t triangle_count_;

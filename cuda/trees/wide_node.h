@@ -55,48 +55,4 @@ HD inline std::uint32_t leaves_below(std::span<const Node> nodes, std::uint32_t 
     return count;
 }
 
-/// Whether there are so few leaves below `child` that they make a group.
-HD inline bool is_group(std::span<const Node> nodes, std::uint32_t child)
-{
-    std::uint32_t leaves[most_in_group];
-    return leaves_below(nodes, child, leaves) <= most_in_group;
-}
-
-/// The children of a wide node.
-struct OpenedNode {
-    Aabb boxes[most_children];
-    std::uint32_t children[most_children];
-    bool groups[most_children]; // which of the children are
-    int count;
-};
-
-/// The children of a wide node: those of `node`, after replacing the internal child of the largest
-/// surface area by its own children as often as there is room. `node` is no group.
-/// [Wald et al. 2008, sec. 3.1].
-HD inline OpenedNode opened(std::span<const Node> nodes, std::uint32_t node)
-{
-    const Node& root = nodes[node];
-    OpenedNode result{{root.bounds[0], root.bounds[1]},
-                      {root.children[0], root.children[1]},
-                      {is_group(nodes, root.children[0]), is_group(nodes, root.children[1])},
-                      2};
-    while (result.count < most_children) {
-        int largest = -1;
-        for (int c = 0; c < result.count; ++c)
-            if (!result.groups[c] &&
-                (largest < 0 || half_area(result.boxes[c]) > half_area(result.boxes[largest])))
-                largest = c;
-        if (largest < 0) break;
-        const Node& next = nodes[result.children[largest]];
-        for (int side = 0; side < 2; ++side) {
-            const int to = side == 0 ? largest : result.count;
-            result.boxes[to] = next.bounds[side];
-            result.children[to] = next.children[side];
-            result.groups[to] = is_group(nodes, next.children[side]);
-        }
-        ++result.count;
-    }
-    return result;
-}
-
 } // namespace fast

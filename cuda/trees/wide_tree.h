@@ -5,8 +5,8 @@
 //
 // Each binary node gets a role: it becomes a wide node, it becomes a group, or it is merged into the
 // wide node or group of an ancestor. The children of a wide node are found from its own subtree
-// (wide_node.h: opened). Whether a binary node becomes a wide node depends on its ancestors. So wide
-// nodes are found level by level, from the root down. The order in which threads find them varies; their
+// (division.h). Whether a binary node becomes a wide node depends on its ancestors. So wide nodes are
+// found level by level, from the root down. The order in which threads find them varies; their
 // numbers do not: they follow the numbers of the binary nodes. So every executor makes the same tree,
 // and neighbours in space stay neighbours in memory.
 
@@ -14,8 +14,8 @@
 #include "cuda/parallel/buffer.h"
 #include "cuda/parallel/executor.h"
 #include "cuda/parallel/radix_sort.h"
+#include "cuda/trees/division.h"
 #include "cuda/trees/triangle_group.h"
-#include "cuda/trees/wide_node.h"
 
 #include <array>
 #include <cstdint>
@@ -58,9 +58,11 @@ struct BeginWideTree {
     std::span<std::uint32_t> numbers;
     std::span<std::uint32_t> found;  // wide nodes, in the order in which they are found
     std::span<std::uint32_t> counts; // of wide nodes, of groups
+    std::span<std::uint32_t> arrivals;
 
     HD void operator()(std::uint32_t i) const
     {
+        if (i < arrivals.size()) arrivals[i] = 0;
         roles[i] = i == root ? root_role : merged_role;
         numbers[i] = i;
         if (i != root) return;
@@ -73,6 +75,7 @@ struct BeginWideTree {
 /// Kernel over the wide nodes of one level: finds those of the next.
 struct FindWideNodes {
     std::span<const Node> nodes;
+    std::span<const Division> divisions;
     std::uint32_t first; // of this level in `found`
     std::span<std::uint32_t> roles;
     std::span<std::uint32_t> found;
@@ -80,7 +83,7 @@ struct FindWideNodes {
 
     HD void operator()(std::uint32_t i) const
     {
-        const OpenedNode node = opened(nodes, found[first + i]);
+        const OpenedNode node = opened(nodes, divisions, found[first + i]);
         for (int c = 0; c < node.count; ++c) {
             const std::uint32_t child = node.children[c];
             const bool group = node.groups[c];
@@ -107,6 +110,7 @@ struct NameWideNodes {
 /// Kernel over wide nodes: fills in children and boxes.
 struct FillWideNodes {
     std::span<const Node> nodes;
+    std::span<const Division> divisions;
     std::span<const std::uint32_t> numbers;
     std::span<const std::uint32_t> names;
     std::span<WideNode> wide;
@@ -114,7 +118,7 @@ struct FillWideNodes {
     HD void operator()(std::uint32_t i) const
     {
         constexpr float infinity = std::numeric_limits<float>::infinity();
-        const OpenedNode node = opened(nodes, child_of(numbers[i]));
+        const OpenedNode node = opened(nodes, divisions, child_of(numbers[i]));
         for (int c = 0; c < most_children; ++c) {
             const bool there = c < node.count;
             wide[i].children[c] = there ? names[number_of(node.children[c])] : no_node;
@@ -153,11 +157,13 @@ struct FillGroups {
 /// Builds and owns a wide tree.
 class WideTree {
 public:
-    /// Of a tree (node.h) whose leaves hold `primitives`, of which the first are `triangles`; all in
-    /// `memory`, which is that of the kernels of `executor`. Waits for every level. Throws OutOfMemory.
+    /// Of a tree (node.h) whose leaves, with these links, hold `primitives`, of which the first are
+    /// `triangles`; all in `memory`, which is that of the kernels of `executor`. Waits for every level.
+    /// Throws OutOfMemory.
     template <Executor E>
     WideTree(Memory& memory, E& executor, std::span<const Node> nodes,
-             std::span<const std::uint32_t> primitives, std::span<const Triangle> triangles)
+             std::span<const std::uint32_t> leaf_links, std::span<const std::uint32_t> primitives,
+             std::span<const Triangle> triangles)
         : nodes_(memory, 0), groups_(memory, 0)
     {
         if (primitives.empty()) return;
@@ -168,13 +174,19 @@ public:
                                                      Buffer<std::uint32_t>(memory, all)};
         Buffer<std::uint32_t> found(memory, nodes.size());
         Buffer<std::uint32_t> counts(memory, 2);
+        Buffer<std::uint32_t> arrivals(memory, nodes.size());
+        Buffer<Division> divisions(memory, nodes.size());
         executor(all, BeginWideTree{number_of(nodes.empty() ? leaf_bit : 0),
                                     primitives.size() > most_in_group ? wide_node_role : group_role,
-                                    roles[0].all(), numbers[0].all(), found.all(), counts.all()});
+                                    roles[0].all(), numbers[0].all(), found.all(), counts.all(),
+                                    arrivals.all()});
+        if (!nodes.empty())
+            executor(static_cast<std::uint32_t>(primitives.size()),
+                     DivideNodes{nodes, leaf_links, arrivals.all(), divisions.all()});
         std::uint32_t wide_nodes = 0;
         for (std::uint32_t next = counts.read(1)[0]; next > wide_nodes; next = counts.read(1)[0]) {
-            executor(next - wide_nodes,
-                     FindWideNodes{nodes, wide_nodes, roles[0].all(), found.all(), counts.all()});
+            executor(next - wide_nodes, FindWideNodes{nodes, divisions.all(), wide_nodes, roles[0].all(),
+                                                      found.all(), counts.all()});
             wide_nodes = next;
             ++levels_;
         }
@@ -190,7 +202,7 @@ public:
         executor(wide_nodes + groups, NameWideNodes{number.current, wide_nodes, names});
         nodes_ = Buffer<WideNode>(memory, wide_nodes);
         groups_ = Buffer<TriangleGroup>(memory, groups);
-        executor(wide_nodes, FillWideNodes{nodes, number.current, names, nodes_.all()});
+        executor(wide_nodes, FillWideNodes{nodes, divisions.all(), number.current, names, nodes_.all()});
         executor(groups, FillGroups{nodes, number.current.subspan(wide_nodes), primitives, triangles,
                                     groups_.all()});
         if (nodes.empty()) return;
