@@ -14,9 +14,10 @@
 namespace fast {
 
 /// Runs every kernel on the same `threads` threads, which sleep in between; the calling thread is the
-/// first of them. Blocks of at most `most_per_block` neighbouring indices are given to the threads in
-/// turn: with blocks of one, neighbours always run on different threads. Must be called from one
-/// thread at a time.
+/// first of them. Every thread has a first block of at most `most_per_block` neighbouring indices, and
+/// then takes the next block as soon as it is free: so a thread that has to wait for a processor does
+/// not delay the others. Blocks of one are given to the threads in turn instead: neighbours always run
+/// on different threads. Must be called from one thread at a time.
 class ThreadedExecutor {
 public:
     explicit ThreadedExecutor(std::uint32_t threads, std::uint32_t most_per_block = 4096);
@@ -30,10 +31,13 @@ public:
     {
         const std::uint64_t share = (std::uint64_t{count} + width() - 1) / width();
         const std::uint64_t block = std::clamp<std::uint64_t>(share, 1, most_per_block_);
+        const bool in_turn = most_per_block_ == 1;
+        std::atomic<std::uint64_t> next = width(); // block
         const auto work = [&](std::uint32_t thread) {
-            for (std::uint64_t begin = thread * block; begin < count; begin += width() * block) {
-                const std::uint64_t end = std::min<std::uint64_t>(begin + block, count);
-                for (std::uint64_t index = begin; index < end; ++index)
+            for (std::uint64_t at = thread; at * block < count;
+                 at = in_turn ? at + width() : next.fetch_add(1, std::memory_order_relaxed)) {
+                const std::uint64_t end = std::min<std::uint64_t>((at + 1) * block, count);
+                for (std::uint64_t index = at * block; index < end; ++index)
                     kernel(static_cast<std::uint32_t>(index));
             }
         };

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <numeric>
 #include <set>
 #include <span>
@@ -95,6 +97,31 @@ TEST(ThreadedExecutor, SharesOutLargeLaunchesAndSmallOnes)
         executor(count, NoteThread{thread});
         EXPECT_EQ(std::set(thread.begin(), thread.end()).size(), 4u) << count;
     }
+}
+
+/// The first index waits until the indices of all blocks of two but its own have ended, at most ten
+/// seconds.
+struct WaitForOthers {
+    std::uint32_t count;
+    std::atomic<std::uint32_t>* ended;
+    std::atomic<bool>* all_ended;
+    void operator()(std::uint32_t index) const
+    {
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+        while (index == 0 && !*all_ended && std::chrono::steady_clock::now() < deadline)
+            *all_ended = *ended + 2 == count;
+        ++*ended;
+    }
+};
+
+TEST(ThreadedExecutor, GivesBlocksToTheThreadThatIsFree)
+{
+    fast::ThreadedExecutor executor(2, 2);
+    std::atomic<std::uint32_t> ended = 0;
+    std::atomic<bool> all_ended = false;
+    executor(100, WaitForOthers{100, &ended, &all_ended});
+    EXPECT_TRUE(all_ended);
+    EXPECT_EQ(ended, 100u);
 }
 
 /// Adds one to a counter, in `steps` atomic steps of which only the last one matters.
