@@ -195,6 +195,18 @@ inline Floats select(const Mask& mask, const Floats& a, const Floats& b)
     return hn::IfThenElse(mask.m, a.v, b.v);
 }
 
+/// As in number.h. These instructions return their second operand where one operand is NaN or both are
+/// 0.
+inline Floats lesser(const Floats& a, const Floats& b)
+{
+    return hn::Min(b.v, a.v);
+}
+
+inline Floats greater(const Floats& a, const Floats& b)
+{
+    return hn::Max(b.v, a.v);
+}
+
 inline Words select(const Mask& mask, const Words& a, const Words& b)
 {
     return hn::IfThenElse(hn::RebindMask(word_tag, mask.m), a.v, b.v);

@@ -186,8 +186,12 @@ inline Lanes multiply_add(const Lanes& a, const Lanes& b, const Lanes& c)
 /// a where a > b, else b; so b where one of them is NaN.
 inline Lanes larger(const Lanes& a, const Lanes& b)
 {
+#if defined(__AVX__)
+    return {{_mm256_max_ps(a.parts[0], b.parts[0])}}; // g++ takes two instructions if b is 0
+#else
     return detail::each_register(
         [&](int i) { return a.parts[i] > b.parts[i] ? a.parts[i] : b.parts[i]; });
+#endif
 }
 
 /// a where a < b, else b; so b where one of them is NaN.
@@ -244,7 +248,11 @@ HD inline LaneBits non_negative(const Lanes& a)
 /// The absolute value.
 HD inline Lanes magnitude(const Lanes& a)
 {
+#if defined(__AVX__) && !defined(__CUDACC__)
+    return {{_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.parts[0])}};
+#else
     return larger(a, -a);
+#endif
 }
 
 /// The number of the lowest lane in `bits`, which are not all 0; takes it out of them.

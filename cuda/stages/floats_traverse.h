@@ -15,7 +15,7 @@
 namespace fast {
 
 /// A node that no more rays enter is traversed by each of them alone.
-constexpr int few_rays = 5 * static_cast<int>(floats_at_once) / 8;
+constexpr int few_rays = 3 * static_cast<int>(floats_at_once) / 4;
 
 /// In a tree of no more nodes all rays stay together to the end.
 constexpr std::size_t small_tree = 16;
@@ -77,6 +77,77 @@ void traverse_together(const WideTreeView& tree, const SlabRayOf<Floats>& rays, 
     }
 }
 
+/// Vectors in memory, for code that reads single lanes.
+class StoredVectors {
+public:
+    void operator=(const Vec3Of<Floats>& v)
+    {
+        x_ = v.x;
+        y_ = v.y;
+        z_ = v.z;
+    }
+    [[nodiscard]] Vec3 operator[](int lane) const { return {x_[lane], y_[lane], z_[lane]}; }
+
+private:
+    StoredLanes<Floats> x_, y_, z_;
+};
+
+/// Many rays in memory, for the test of one of them against all boxes of a wide node at once: the same
+/// as WideSlabs, but nothing is copied per ray.
+class StoredSlabs {
+public:
+    void operator=(const SlabRayOf<Floats>& rays)
+    {
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+            const Floats& reciprocal = rays.reciprocal[static_cast<int>(axis)];
+            const Mask descends = reciprocal < 0.0f;
+            reciprocal_[axis] = reciprocal;
+            entering_[axis] = rays.entering[static_cast<int>(axis)];
+            leaving_[axis] = rays.leaving[static_cast<int>(axis)];
+            first_[axis] = select(descends, Words(3 + axis), Words(axis));
+            last_[axis] = select(descends, Words(axis), Words(3 + axis));
+        }
+    }
+    /// As WideSlabs::entered, of the ray in `lane`.
+    [[nodiscard]] LaneBits entered(int lane, const WideNode& node, float limit, Lanes& near) const
+    {
+        near = larger(larger(enter(lane, node, 0), enter(lane, node, 1)),
+                      larger(enter(lane, node, 2), all_lanes(0)));
+        const Lanes far = smaller(smaller(leave(lane, node, 0), leave(lane, node, 1)),
+                                  smaller(leave(lane, node, 2), all_lanes(limit)));
+        return not_above(near, far);
+    }
+
+private:
+    [[nodiscard]] Lanes enter(int lane, const WideNode& node, int axis) const
+    {
+        return multiply_add(node.planes[first_[axis][lane]], all_lanes(reciprocal_[axis][lane]),
+                            all_lanes(entering_[axis][lane]));
+    }
+    [[nodiscard]] Lanes leave(int lane, const WideNode& node, int axis) const
+    {
+        return multiply_add(node.planes[last_[axis][lane]], all_lanes(reciprocal_[axis][lane]),
+                            all_lanes(leaving_[axis][lane]));
+    }
+
+    StoredLanes<Floats> reciprocal_[3];
+    StoredLanes<Floats> entering_[3];
+    StoredLanes<Floats> leaving_[3];
+    StoredLanes<Words> first_[3]; // the plane by which the ray enters a box
+    StoredLanes<Words> last_[3];
+};
+
+/// One of them, in place of WideSlabs.
+struct OneOfSlabs {
+    const StoredSlabs& all;
+    int lane;
+
+    [[nodiscard]] LaneBits entered(const WideNode& node, float limit, Lanes& near) const
+    {
+        return all.entered(lane, node, limit, near);
+    }
+};
+
 /// The same rays one by one, as traverse_below and intersect_group need them. They are stored when the
 /// first of them is needed.
 class SingleRays {
@@ -87,20 +158,27 @@ public:
     struct One {
         Ray ray;
         ShearedRay sheared;
-        WideSlabs slabs;
+        OneOfSlabs slabs;
     };
     One operator[](int lane)
     {
         if (!stored_) store();
-        return {stored_rays_[lane], ShearedRay(shears_[lane]), WideSlabs(stored_slab_rays_[lane])};
+        return {{origins_[lane], t_max_[lane], directions_[lane]},
+                ShearedRay({kz_[lane], sheared_origins_[lane], factors_[lane]}),
+                {slabs_, lane}};
     }
 
 private:
     void store()
     {
-        stored_rays_ = rays_;
-        stored_slab_rays_ = slab_rays_;
-        shears_ = sheared_.shears();
+        origins_ = rays_.origin;
+        directions_ = rays_.direction;
+        t_max_ = rays_.t_max;
+        slabs_ = slab_rays_;
+        const ShearOf<Floats> shears = sheared_.shears();
+        kz_ = shears.kz;
+        sheared_origins_ = shears.origin;
+        factors_ = shears.factors;
         stored_ = true;
     }
 
@@ -108,9 +186,10 @@ private:
     const SlabRayOf<Floats>& slab_rays_;
     const ShearedRays& sheared_;
     bool stored_ = false;
-    StoredLanes<RayOf<Floats>> stored_rays_;
-    StoredLanes<SlabRayOf<Floats>> stored_slab_rays_;
-    StoredLanes<ShearOf<Floats>> shears_;
+    StoredVectors origins_, directions_, sheared_origins_, factors_;
+    StoredLanes<Floats> t_max_;
+    StoredLanes<Words> kz_;
+    StoredSlabs slabs_;
 };
 
 } // namespace fast

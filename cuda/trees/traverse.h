@@ -23,8 +23,8 @@ struct NotCounted {
 /// `limit`, nearer children first. `next`: a node, or a group with leaf_bit; its own box is not tested.
 /// `test` returns the new limit: the t of the closest hit so far, or a negative number to stop. Calls
 /// count() for every test of a node. This form keeps every child that is still to be visited.
-template <class Test, class Count = NotCounted>
-HD void traverse_with_children(const WideTreeView& tree, std::uint32_t next, const WideSlabs& slabs,
+template <class Slabs, class Test, class Count = NotCounted>
+HD void traverse_with_children(const WideTreeView& tree, std::uint32_t next, const Slabs& slabs,
                                float limit, const Test& test, const Count& count = {})
 {
     TraversalStack stack;
@@ -70,8 +70,8 @@ HD void traverse_with_children(const WideTreeView& tree, std::uint32_t next, con
 /// The same, keeping of each node on the way only which children are still to be visited: an element per
 /// level. When a node comes up again, its boxes are tested again, against the smaller limit. That is
 /// more work and less memory, of which every thread of a GPU has its own.
-template <class Test, class Count = NotCounted>
-HD void traverse_with_masks(const WideTreeView& tree, std::uint32_t next, const WideSlabs& slabs,
+template <class Slabs, class Test, class Count = NotCounted>
+HD void traverse_with_masks(const WideTreeView& tree, std::uint32_t next, const Slabs& slabs,
                             float limit, const Test& test, const Count& count = {})
 {
     struct Unfinished {
@@ -114,8 +114,8 @@ HD void traverse_with_masks(const WideTreeView& tree, std::uint32_t next, const 
 }
 
 /// The form for this processor.
-template <class Test, class Count = NotCounted>
-HD void traverse_below(const WideTreeView& tree, std::uint32_t next, const WideSlabs& slabs, float limit,
+template <class Slabs, class Test, class Count = NotCounted>
+HD void traverse_below(const WideTreeView& tree, std::uint32_t next, const Slabs& slabs, float limit,
                        const Test& test, const Count& count = {})
 {
     if constexpr (lanes_at_once)
