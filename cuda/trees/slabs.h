@@ -59,7 +59,7 @@ struct SlabRayOf {
             const MaskOf<F> descends = r < 0.0f;
             // The reciprocal itself must be in range, too: of a direction below 2^-127 it is not.
             const F reach = greater(F(1.0f), 2.0f * magnitude_of(o) + m + p);
-            const MaskOf<F> in_range = reach <= largest * d; // reach / d <= largest
+            const MaskOf<F> in_range = reach / d <= largest;
             reciprocal[axis] = select(in_range, r, F(std::numeric_limits<float>::min()));
             entering[axis] = select(in_range, -select(descends, o - p, o + p) * r, F(-largest));
             leaving[axis] = select(in_range, -select(descends, o + p, o - p) * r, F(largest));

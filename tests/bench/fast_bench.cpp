@@ -4,8 +4,8 @@
 //   bench_fast [--benchmark_...]
 //
 // Builds start from boxes, and use memory that an earlier build has used; "hploc" is morton63, with
-// clustering instead of the refit. With
-// more than one thread the elapsed time is measured, otherwise the CPU time. SAH costs: C_trav =
+// clustering instead of the refit; "hploc-wide" also makes the wide tree, in new memory: what rays need.
+// With more than one thread the elapsed time is measured, otherwise the CPU time. SAH costs: C_trav =
 // C_isect = 1. For rays also: nodes and leaves (groups of a wide tree) per ray, and nodes if no hit
 // stopped the traversal; and the nodes and groups of a wide tree.
 
@@ -26,10 +26,14 @@ namespace {
 
 using fast::Vec3;
 
+enum class Built { radix, clustered, wide };
+
 template <class Code>
-void build(benchmark::State& state, const scenes::Scene& scene, unsigned threads, bool cluster)
+void build(benchmark::State& state, const scenes::Scene& scene, unsigned threads, Built built)
 {
+    const bool cluster = built != Built::radix;
     const std::vector<fast::Aabb> boxes = fast::boxes_of(scene);
+    const std::vector<fast::Triangle> triangles = fast::triangles_of(scene);
     const auto n = static_cast<std::uint32_t>(boxes.size());
     fast::HostMemory memory;
     fast::ThreadedExecutor executor(threads);
@@ -39,6 +43,10 @@ void build(benchmark::State& state, const scenes::Scene& scene, unsigned threads
         if (!cluster) return tree.build(executor, boxes);
         tree.build_links(executor, boxes);
         clustered.build(executor, boxes, tree);
+        if (built == Built::clustered) return;
+        const fast::WideTree wide(memory, executor, std::as_const(clustered).nodes(),
+                                  clustered.leaf_links(), tree.primitives(), triangles);
+        benchmark::DoNotOptimize(wide.levels());
     };
     build_once(); // touches the memory, which the system clears at the first access
     for (auto _ : state) build_once();
@@ -223,11 +231,13 @@ void add_builds(const std::shared_ptr<const scenes::Scene>& scene)
         };
         using benchmark::State;
         add(name("morton30"), threads,
-            [=](State& state) { build<std::uint32_t>(state, *scene, threads, false); });
+            [=](State& state) { build<std::uint32_t>(state, *scene, threads, Built::radix); });
         add(name("morton63"), threads,
-            [=](State& state) { build<std::uint64_t>(state, *scene, threads, false); });
+            [=](State& state) { build<std::uint64_t>(state, *scene, threads, Built::radix); });
         add(name("hploc"), threads,
-            [=](State& state) { build<std::uint64_t>(state, *scene, threads, true); });
+            [=](State& state) { build<std::uint64_t>(state, *scene, threads, Built::clustered); });
+        add(name("hploc-wide"), threads,
+            [=](State& state) { build<std::uint64_t>(state, *scene, threads, Built::wide); });
         if constexpr (bench::have_embree)
             for (const bool medium : {false, true})
                 add(name(medium ? "embree-medium" : "embree-low"), threads, [=](State& state) {

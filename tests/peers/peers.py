@@ -8,7 +8,7 @@ import signal
 import sys
 import tempfile
 
-import embree_rays
+import embree_trees
 import machine
 import measure
 import options as command_line
@@ -68,14 +68,14 @@ def main(arguments):
         for line in result["not_measured"]:
             say(line)
         interrupted = False
-        rays, differences = [], {}
+        trees, differences = [], {}
         try:
             measure.prepare(entries, options, options.size[0] * options.size[1])
             differences = measure.compare_pictures(entries)
             measure.measure_rounds(entries, options)
             if "embree" in options.only:
-                say(f"rays beside Embree, {options.repetitions} repetitions")
-                rays = rays_beside_embree(options, folder, result)
+                say(f"trees beside Embree, {options.repetitions} repetitions")
+                trees = trees_beside_embree(options, folder, result)
         except KeyboardInterrupt:
             interrupted = True
             say("\ninterrupted: what follows was measured before")
@@ -84,25 +84,25 @@ def main(arguments):
                 peer.stop()
     if not differences and any(entry.pictures for entry in entries):
         differences = measure.compare_pictures(entries)
-    finish(result, entries, differences, rays, options, interrupted)
+    finish(result, entries, differences, trees, options, interrupted)
     return 130 if interrupted else 0
 
 
-def rays_beside_embree(options, folder, result):
+def trees_beside_embree(options, folder, result):
     try:
-        return embree_rays.measure(options.bench, options.repetitions, folder)
+        return embree_trees.measure(options.bench, options.repetitions, folder)
     except Problem as problem:
         result["not_measured"].append(f"embree: not measured: {problem}")
         say(result["not_measured"][-1])
         return []
 
 
-def finish(result, entries, differences, rays, options, interrupted):
+def finish(result, entries, differences, trees, options, interrupted):
     result["after"] = machine.load()
     result["interrupted"] = interrupted
     result["ratios"] = report.ratios_of(entries, differences, pairs_of(options.only))
     result["rates"] = report.rates_of(entries)
-    result["embree"] = rays
+    result["embree"] = trees
     result["runs"] = [{"scene": entry.contestant.scene, "contestant": entry.contestant.name, "threads": threads,
                        "round": number, **{key: run[key] for key in ("samples", "seconds", "cpu_seconds")}}
                       for entry in entries for threads, runs in entry.runs.items() for number, run in runs.items()]
@@ -128,7 +128,7 @@ def print_markdown(result, entries, options):
         print(report.markdown_rates(result["rates"], options.threads))
     if result["embree"]:
         print("\nBeside Embree:\n")
-        print(embree_rays.markdown(result["embree"]))
+        print(embree_trees.markdown(result["embree"]))
     for line in result["not_measured"]:
         print(f"\n{line}")
     say(f"in full: {options.output}")

@@ -5,7 +5,7 @@ import random
 import unittest
 
 from blocks import block_means, name_of
-from embree_rays import rows_of
+from embree_trees import rows_of
 from statistics_of_ratios import compare_means, median, ratio_of, t_quantile
 
 
@@ -105,6 +105,16 @@ class Embree(unittest.TestCase):
         self.assertEqual(len(rows), 1)
         self.assertAlmostEqual(rows[0]["ratio"], 0.5)
         self.assertEqual(rows[0]["rounds"], 2)
+
+    def test_threads_are_compared_by_the_clock(self):
+        def run(name, cpu, real):
+            return {"name": name, "run_name": name, "repetition_index": 0, "cpu_time": cpu, "real_time": real}
+        rows = rows_of({"benchmarks": [
+            run("build/sphere-1e6/hploc/1", 30.0, 32.0), run("build/sphere-1e6/hploc/2/real_time", 29.0, 16.0),
+            run("build/sphere-1e6/embree-low/1", 15.0, 99.0)]})
+        self.assertEqual([(row["what"], row["ours"], row["theirs"], row["ratio"]) for row in rows],
+                         [("build, 1 thread", "hploc", "embree-low", 0.5),
+                          ("build, 2 threads / 1 thread", "hploc", "hploc", 2.0)])
 
 
 if __name__ == "__main__":
