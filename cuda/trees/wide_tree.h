@@ -142,14 +142,15 @@ struct FillGroups {
     {
         std::uint32_t leaves[most_in_group];
         const std::uint32_t count = leaves_below(nodes, child_of(numbers[i]), leaves);
+        Triangle absent;
+        for (Vec3& vertex : absent.vertices) vertex = Vec3(std::numeric_limits<float>::quiet_NaN());
         for (std::uint32_t lane = 0; lane < most_in_group; ++lane) {
             const std::uint32_t primitive = lane < count ? primitives[leaves[lane]] : no_primitive;
             groups[i].primitives[lane] = primitive;
+            const Triangle& triangle = primitive < triangles.size() ? triangles[primitive] : absent;
             for (int k = 0; k < 3; ++k)
                 for (int axis = 0; axis < 3; ++axis)
-                    groups[i].vertices[k][axis][static_cast<int>(lane)] =
-                        primitive < triangles.size() ? triangles[primitive].vertices[k][axis]
-                                                     : std::numeric_limits<float>::quiet_NaN();
+                    groups[i].vertices[k][axis][static_cast<int>(lane)] = triangle.vertices[k][axis];
         }
     }
 };

@@ -32,20 +32,20 @@ template <class Code>
 void build(benchmark::State& state, const scenes::Scene& scene, unsigned threads, Built built)
 {
     const bool cluster = built != Built::radix;
-    const std::vector<fast::Aabb> boxes = fast::boxes_of(scene);
-    const std::vector<fast::Triangle> triangles = fast::triangles_of(scene);
-    const auto n = static_cast<std::uint32_t>(boxes.size());
+    const auto n = static_cast<std::uint32_t>(scene.triangles.size());
     fast::HostMemory memory;
+    const fast::Buffer<fast::Triangle> triangles(memory, fast::triangles_of(scene));
+    const fast::Buffer<fast::Aabb> boxes(memory, fast::boxes_of(scene));
     fast::ThreadedExecutor executor(threads);
     fast::Lbvh<Code> tree(memory, executor, n);
     fast::Hploc clustered(memory, cluster ? n : 0);
     const auto build_once = [&] {
-        if (!cluster) return tree.build(executor, boxes);
-        tree.build_links(executor, boxes);
-        clustered.build(executor, boxes, tree);
+        if (!cluster) return tree.build(executor, boxes.all());
+        tree.build_links(executor, boxes.all());
+        clustered.build(executor, boxes.all(), tree);
         if (built == Built::clustered) return;
         const fast::WideTree wide(memory, executor, std::as_const(clustered).nodes(),
-                                  clustered.leaf_links(), tree.primitives(), triangles);
+                                  clustered.leaf_links(), tree.primitives(), triangles.all());
         benchmark::DoNotOptimize(wide.levels());
     };
     build_once(); // touches the memory, which the system clears at the first access

@@ -53,7 +53,7 @@ def parse(arguments):
     parser.add_argument("--pictures", type=int, default=32,
                         help="pictures of each renderer that are compared first; 0: none, and no verdict [32]")
     parser.add_argument("--picture-seconds", type=positive(float), default=0.25, help="of one of these [0.25]")
-    parser.add_argument("--repetitions", type=positive(int), default=7, help="of the rays beside Embree [7]")
+    parser.add_argument("--repetitions", type=positive(int), default=7, help="of builds and rays beside Embree [7]")
     parser.add_argument("--seed", type=int, default=1, help="of the order and of the pictures [1]")
     parser.add_argument("--output", default="out/peers.json", help="[out/peers.json]")
     parser.add_argument("--plumbline", default=os.environ.get("PLUMBLINE", "build/release/plumbline"),
