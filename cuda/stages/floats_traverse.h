@@ -111,11 +111,8 @@ public:
     /// As WideSlabs::entered, of the ray in `lane`.
     [[nodiscard]] LaneBits entered(int lane, const WideNode& node, float limit, Lanes& near) const
     {
-        near = larger(larger(enter(lane, node, 0), enter(lane, node, 1)),
-                      larger(enter(lane, node, 2), all_lanes(0)));
-        const Lanes far = smaller(smaller(leave(lane, node, 0), leave(lane, node, 1)),
-                                  smaller(leave(lane, node, 2), all_lanes(limit)));
-        return not_above(near, far);
+        return boxes_entered([&](int axis) { return enter(lane, node, axis); },
+                             [&](int axis) { return leave(lane, node, axis); }, limit, near);
     }
 
 private:

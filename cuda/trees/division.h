@@ -29,9 +29,9 @@ struct Division {
     static constexpr int most_parts = most_children - 1; // of a child: its sibling needs a part, too
 
     float costs[most_parts]; // C(n, 1), C(n, 2), ...; of a group undefined
-    std::uint32_t
-        packed; // of a group the number of its leaves; otherwise 0 and, from bit 4 on, four
-                // bits for each i from 2 to most_children: k; 8: whether C(n, i) is C(n, i - 1)
+    /// Of a group: the number of its leaves. Otherwise 0 and, from bit 4 on, four bits for each i from 2
+    /// to most_children: three for k of D(n, i), one that says whether C(n, i) is C(n, i - 1).
+    std::uint32_t packed;
 
     [[nodiscard]] HD std::uint32_t leaves_of_group() const { return packed & 15; } // 0: is no group
     [[nodiscard]] HD bool is_group() const { return leaves_of_group() != 0; }
@@ -91,7 +91,7 @@ private:
         read_costs(node.children[1], right);
         float divided[most_children + 1]; // D(n, i)
         for (int i = 2; i <= most_children; ++i) {
-            int best = 1; // of most_children, both children can have at most one less
+            int best = 1; // k
             float least = left[0] + right[i - 2];
             for (int k = 2; k < i; ++k) {
                 const float cost = left[k - 1] + right[i - k - 1];

@@ -103,6 +103,19 @@ private:
     MaskOf<F> descends_[3];
 };
 
+/// The test of one ray against many boxes at once. enter(axis) and leave(axis): where it meets the
+/// planes of an axis by which it enters and leaves the boxes. Returns the boxes that the ray is in at a
+/// t from 0 to `limit`; `near`: the smallest such t of each.
+template <class Enter, class Leave>
+HD LaneBits boxes_entered(const Enter& enter, const Leave& leave, float limit, Lanes& near)
+{
+    // If the first argument is NaN, the second is taken: then the worst effect is a visit to a box that
+    // could have been skipped.
+    near = larger(larger(enter(0), enter(1)), larger(enter(2), all_lanes(0)));
+    const Lanes far = smaller(smaller(leave(0), leave(1)), smaller(leave(2), all_lanes(limit)));
+    return not_above(near, far); // map: slabs
+}
+
 /// The test of one ray against all boxes of a wide node at once.
 class WideSlabs {
 public:
@@ -122,12 +135,8 @@ public:
     /// The boxes that the ray is in at a t from 0 to `limit`; `near`: the smallest such t of each.
     [[nodiscard]] HD LaneBits entered(const WideNode& node, float limit, Lanes& near) const
     {
-        // If the first argument is NaN, the second is taken: then the worst effect is a visit to a box
-        // that could have been skipped.
-        near = larger(larger(enter(node, 0), enter(node, 1)), larger(enter(node, 2), all_lanes(0)));
-        const Lanes far =
-            smaller(smaller(leave(node, 0), leave(node, 1)), smaller(leave(node, 2), all_lanes(limit)));
-        return not_above(near, far); // map: slabs
+        return boxes_entered([&](int axis) { return enter(node, axis); },
+                             [&](int axis) { return leave(node, axis); }, limit, near);
     }
 
 private:
