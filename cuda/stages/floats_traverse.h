@@ -111,8 +111,9 @@ public:
     /// As WideSlabs::entered, of the ray in `lane`.
     [[nodiscard]] LaneBits entered(int lane, const WideNode& node, float limit, Lanes& near) const
     {
-        return boxes_entered([&](int axis) { return enter(lane, node, axis); },
-                             [&](int axis) { return leave(lane, node, axis); }, limit, near);
+        return boxes_entered({enter(lane, node, 0), enter(lane, node, 1), enter(lane, node, 2)},
+                             {leave(lane, node, 0), leave(lane, node, 1), leave(lane, node, 2)}, limit,
+                             near);
     }
 
 private:

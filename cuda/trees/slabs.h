@@ -103,16 +103,16 @@ private:
     MaskOf<F> descends_[3];
 };
 
-/// The test of one ray against many boxes at once. enter(axis) and leave(axis): where it meets the
-/// planes of an axis by which it enters and leaves the boxes. Returns the boxes that the ray is in at a
-/// t from 0 to `limit`; `near`: the smallest such t of each.
-template <class Enter, class Leave>
-HD LaneBits boxes_entered(const Enter& enter, const Leave& leave, float limit, Lanes& near)
+/// The test of one ray against many boxes at once. `enter`, `leave`: where it meets the planes of each
+/// axis by which it enters and leaves the boxes. Returns the boxes that the ray is in at a t from 0 to
+/// `limit`; `near`: the smallest such t of each.
+HD inline LaneBits boxes_entered(const Lanes (&enter)[3], const Lanes (&leave)[3], float limit,
+                                 Lanes& near)
 {
     // If the first argument is NaN, the second is taken: then the worst effect is a visit to a box that
     // could have been skipped.
-    near = larger(larger(enter(0), enter(1)), larger(enter(2), all_lanes(0)));
-    const Lanes far = smaller(smaller(leave(0), leave(1)), smaller(leave(2), all_lanes(limit)));
+    near = larger(larger(enter[0], enter[1]), larger(enter[2], all_lanes(0)));
+    const Lanes far = smaller(smaller(leave[0], leave[1]), smaller(leave[2], all_lanes(limit)));
     return not_above(near, far); // map: slabs
 }
 
@@ -135,8 +135,8 @@ public:
     /// The boxes that the ray is in at a t from 0 to `limit`; `near`: the smallest such t of each.
     [[nodiscard]] HD LaneBits entered(const WideNode& node, float limit, Lanes& near) const
     {
-        return boxes_entered([&](int axis) { return enter(node, axis); },
-                             [&](int axis) { return leave(node, axis); }, limit, near);
+        return boxes_entered({enter(node, 0), enter(node, 1), enter(node, 2)},
+                             {leave(node, 0), leave(node, 1), leave(node, 2)}, limit, near);
     }
 
 private:
