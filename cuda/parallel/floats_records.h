@@ -146,46 +146,35 @@ void put_lane(Record& record, int lane, const typename detail::One<Record>::Type
     record = std::bit_cast<Record>(members);
 }
 
-/// A record in memory, for code that reads and writes single lanes: lane_of and put_lane store and load
-/// all lanes each time.
-template <class Record>
+/// Floats or Words in memory, for code that reads and writes single lanes: lane_of and put_lane store
+/// and load all lanes each time.
+template <class Number>
 class StoredLanes {
-    using One = typename detail::One<Record>::Type;
+    using One = typename detail::One<Number>::Type;
 
 public:
     StoredLanes() = default; // undefined
-    explicit StoredLanes(const Record& record) { *this = record; }
-    StoredLanes& operator=(const Record& record)
+    explicit StoredLanes(const Number& number) { *this = number; }
+    StoredLanes& operator=(const Number& number)
     {
-        const auto members = std::bit_cast<detail::Members<Record>>(record);
-        for (std::size_t i = 0; i < words_.size(); ++i)
-            hn::Store(members[i].v, word_tag, words_[i].data());
+        hn::Store(std::bit_cast<Words>(number).v, word_tag, words_.data());
         return *this;
     }
-    [[nodiscard]] Record all() const
+    [[nodiscard]] Number all() const
     {
-        detail::Members<Record> members;
-        for (std::size_t i = 0; i < words_.size(); ++i)
-            members[i] = hn::Load(word_tag, words_[i].data());
-        return std::bit_cast<Record>(members);
+        return std::bit_cast<Number>(Words(hn::Load(word_tag, words_.data())));
     }
     [[nodiscard]] One operator[](int lane) const
     {
-        std::array<std::uint32_t, detail::member_count<Record>> result;
-        for (std::size_t i = 0; i < result.size(); ++i)
-            result[i] = words_[i][static_cast<std::size_t>(lane)];
-        return std::bit_cast<One>(result);
+        return std::bit_cast<One>(words_[static_cast<std::size_t>(lane)]);
     }
-    void put(int lane, const One& value)
+    void put(int lane, One value)
     {
-        const auto words = std::bit_cast<std::array<std::uint32_t, detail::member_count<Record>>>(value);
-        for (std::size_t i = 0; i < words.size(); ++i)
-            words_[i][static_cast<std::size_t>(lane)] = words[i];
+        words_[static_cast<std::size_t>(lane)] = std::bit_cast<std::uint32_t>(value);
     }
 
 private:
-    alignas(HWY_MAX_BYTES)
-        std::array<std::array<std::uint32_t, floats_at_once>, detail::member_count<Record>> words_;
+    alignas(HWY_MAX_BYTES) std::array<std::uint32_t, floats_at_once> words_;
 };
 
 inline void put_lane(Mask& mask, int lane, bool value)

@@ -15,7 +15,6 @@
 #include "cuda/trees/nearest_clusters.h"
 
 #include <cstdint>
-#include <limits>
 #include <span>
 
 namespace fast {
@@ -158,8 +157,7 @@ public:
           handed_on_(memory, 2 * std::size_t{capacity}), clusters_(memory, capacity), top_(memory, 1)
     {}
     /// Queues the build over the primitives of the last build of `sorted` (Lbvh::build_links is enough),
-    /// in the order of its leaves.
-    /// The conditions on the boxes are those of Lbvh::build.
+    /// in the order of its leaves. The conditions on the boxes are those of Lbvh::build.
     template <Executor E, class Code>
     void build(E& executor, std::span<const Aabb> boxes, Lbvh<Code>& sorted)
     {

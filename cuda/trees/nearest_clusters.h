@@ -29,6 +29,12 @@ struct Cluster {
     std::uint32_t height; // edges from the root to the deepest leaf
 };
 
+/// The first cluster in the list that is a neighbour of cluster i.
+HD constexpr std::uint32_t first_neighbour(std::uint32_t i)
+{
+    return i == 0 ? 1 : i < search_radius ? 0 : i - search_radius;
+}
+
 /// The neighbour whose common box with cluster i of `list` (at least two) has the smallest area, where
 /// an area of NaN (0 * infinity) counts as infinite. Of several it takes the other half of the pair
 /// (2 k, 2 k + 1) that i belongs to, if both boxes are equal, or else the first pair, ordered by both
@@ -37,15 +43,14 @@ struct Cluster {
 HD inline std::uint32_t nearest_cluster(std::span<const Cluster> list, std::uint32_t i)
 {
     const auto count = static_cast<std::uint32_t>(list.size());
-    const std::uint32_t begin = i < search_radius ? 0 : i - search_radius;
     const std::uint32_t end = i + search_radius < count ? i + search_radius + 1 : count;
     const Aabb box = list[i].box;
     const std::uint32_t paired = i ^ 1;
     if (paired < count && box.lower == list[paired].box.lower && box.upper == list[paired].box.upper)
         return paired;
-    std::uint32_t best = i == begin ? i + 1 : begin;
+    std::uint32_t best = first_neighbour(i);
     float smallest = std::numeric_limits<float>::infinity();
-    for (std::uint32_t j = begin; j < end; ++j) {
+    for (std::uint32_t j = best; j < end; ++j) {
         const float area = half_area(unite(box, list[j].box));
         if (j != i && area < smallest) {
             smallest = area;
@@ -131,7 +136,7 @@ private:
             else if (const int distance = static_cast<int>(best[static_cast<int>(lane)]); distance != 0)
                 nearest_[i] = static_cast<std::uint32_t>(static_cast<int>(i) + distance);
             else
-                nearest_[i] = i == 0 ? 1 : i < search_radius ? 0 : i - search_radius;
+                nearest_[i] = first_neighbour(i);
         }
     }
     /// Plane `number` of the boxes first, first + 1, ...; first may be up to search_radius less than 0.

@@ -51,14 +51,15 @@ HD constexpr std::uint32_t child_of(std::uint32_t number)
 }
 
 /// Kernel over nodes and leaves: gives the root its role, and all others the role merged_role for now.
+/// Clears the arrivals for DivideNodes.
 struct BeginWideTree {
     std::uint32_t root; // its number
     std::uint32_t root_role;
     std::span<std::uint32_t> roles;
     std::span<std::uint32_t> numbers;
-    std::span<std::uint32_t> found;  // wide nodes, in the order in which they are found
-    std::span<std::uint32_t> counts; // of wide nodes, of groups
-    std::span<std::uint32_t> arrivals;
+    std::span<std::uint32_t> found;    // wide nodes, in the order in which they are found
+    std::span<std::uint32_t> counts;   // of wide nodes, of groups
+    std::span<std::uint32_t> arrivals; // one per node
 
     HD void operator()(std::uint32_t i) const
     {
