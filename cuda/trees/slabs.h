@@ -55,11 +55,12 @@ struct SlabRayOf {
             const F& o = ray.origin[axis];
             const F p = unit_roundoff * (64.0f * m + 4.0f * magnitude_of(o));
             const F d = greater(magnitude_of(ray.direction[axis]), 0x1p-60f * longest);
-            const F r = with_sign_of(1.0f / d, ray.direction[axis]);
+            const F size = 1.0f / d;
+            const F r = with_sign_of(size, ray.direction[axis]);
             const MaskOf<F> descends = r < 0.0f;
             // The reciprocal itself must be in range, too: of a direction below 2^-127 it is not.
             const F reach = greater(F(1.0f), 2.0f * magnitude_of(o) + m + p);
-            const MaskOf<F> in_range = reach / d <= largest;
+            const MaskOf<F> in_range = reach * size <= largest;
             reciprocal[axis] = select(in_range, r, F(std::numeric_limits<float>::min()));
             entering[axis] = select(in_range, -select(descends, o - p, o + p) * r, F(-largest));
             leaving[axis] = select(in_range, -select(descends, o + p, o - p) * r, F(largest));

@@ -76,7 +76,7 @@ HD inline LaneBits may_hit(const ShearedRay& ray, const TriangleGroup& group)
     const Lanes X = larger(larger(A.reach(), B.reach()), C.reach());
     const Lanes Z = magnitude(A.z) + magnitude(B.z) + magnitude(C.z);
     const Lanes bound = (X + X) * (X + X) * Z; // bounds |T|: infinite if a term of T is
-    const Lanes error = all_lanes(4 * unit_roundoff) * bound + all_lanes(tiny) * Z + all_lanes(tiny);
+    const Lanes error = all_lanes(4 * unit_roundoff) * bound + all_lanes(tiny) * (Z + all_lanes(1));
     const Lanes T = (U * A.z + V * B.z + W * C.z) * all_lanes(ray.shear_factors().z < 0 ? -1.0f : 1.0f);
     // If the first argument is NaN, the second is taken.
     return non_negative(larger(smaller(error + T, least), smaller(error - T, -most)));

@@ -14,7 +14,8 @@ class Embree {
 public:
     Embree(const scenes::Scene& scene, EmbreeOptions options)
         : device_(rtcNewDevice(("set_affinity=0,threads=" + std::to_string(options.threads)).c_str())),
-          quality_(options.medium ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW)
+          quality_(options.medium ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW),
+          flags_(options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE)
     {
         for (const scenes::Triangle& triangle : scene.triangles)
             for (const ref::Vec3& vertex : triangle.vertices) {
@@ -37,6 +38,7 @@ public:
         clear();
         scene_ = rtcNewScene(device_);
         rtcSetSceneBuildQuality(scene_, quality_);
+        rtcSetSceneFlags(scene_, flags_);
         RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetGeometryBuildQuality(mesh, quality_);
         rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices_.data(),
@@ -78,6 +80,7 @@ private:
     }
     RTCDevice device_;
     RTCBuildQuality quality_;
+    RTCSceneFlags flags_;
     RTCScene scene_ = nullptr;
     std::vector<float> vertices_;
     std::vector<unsigned> indices_;

@@ -19,6 +19,7 @@ constexpr bool have_embree = false;
 
 struct EmbreeOptions {
     bool medium = false; // quality
+    bool robust = false; // watertight, as the fast path is: by default a ray may pass between triangles
     unsigned threads = 1;
 };
 

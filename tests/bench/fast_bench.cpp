@@ -241,7 +241,7 @@ void add_builds(const std::shared_ptr<const scenes::Scene>& scene)
         if constexpr (bench::have_embree)
             for (const bool medium : {false, true})
                 add(name(medium ? "embree-medium" : "embree-low"), threads, [=](State& state) {
-                    bench::embree_build(state, *scene, {medium, threads});
+                    bench::embree_build(state, *scene, {medium, false, threads});
                 });
     }
 }
@@ -262,11 +262,12 @@ void add_traces(const std::shared_ptr<const scenes::Scene>& scene)
                 [=, rays = rays](State& state) { trace(state, trees->wide(clustered), rays); });
         }
         if constexpr (bench::have_embree)
-            for (const bool medium : {false, true})
-                add(name + (medium ? "embree-medium" : "embree-low"), 1,
-                    [=, rays = in_double(rays)](State& state) {
-                        bench::embree_trace(state, *scene, rays, {medium, 1});
-                    });
+            for (const bool robust : {false, true})
+                for (const bool medium : {false, true})
+                    add(name + (medium ? "embree-medium" : "embree-low") + (robust ? "-robust" : ""), 1,
+                        [=, rays = in_double(rays)](State& state) {
+                            bench::embree_trace(state, *scene, rays, {medium, robust, 1});
+                        });
     }
 }
 
