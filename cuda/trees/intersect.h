@@ -26,19 +26,20 @@ class ShearedRay {
 public:
     HD explicit ShearedRay(const Ray& ray)
     {
-        const Vec3 length = glm::abs(ray.direction);
-        kz_ = length.x > length.y ? (length.x > length.z ? 0 : 2) : (length.y > length.z ? 1 : 2);
-        kx_ = (kz_ + 1) % 3;
-        ky_ = (kz_ + 2) % 3;
+        // No branches: half of them would be predicted wrongly.
+        const Vec3 length = magnitude_of(ray.direction);
+        const int x_or_y = length.x > length.y ? 0 : 1;
+        const int z_is_longest = greater(length.x, length.y) > length.z ? 0 : 1;
+        set_kz(x_or_y + z_is_longest * (2 - x_or_y));
         origin_ = permuted(ray.origin);
         const Vec3 d = permuted(ray.direction);
         shear_ = Vec3(d.x, d.y, 1.0f) / d.z;
     }
     HD explicit ShearedRay(const ShearOf<float>& shear)
-        : kx_(shear.kz == 2 ? 0 : static_cast<int>(shear.kz) + 1),
-          ky_(shear.kz == 0 ? 2 : static_cast<int>(shear.kz) - 1), kz_(static_cast<int>(shear.kz)),
-          origin_(shear.origin), shear_(shear.factors)
-    {}
+        : origin_(shear.origin), shear_(shear.factors)
+    {
+        set_kz(static_cast<int>(shear.kz));
+    }
     /// x and y across the ray; z is the t at which the ray is level with the vertex. A vertex is moved
     /// to the same place for every triangle that it belongs to, so no gap opens between them.
     [[nodiscard]] HD Vec3 shear(const Vec3& vertex) const
@@ -54,6 +55,12 @@ public:
     [[nodiscard]] HD const Vec3& shear_factors() const { return shear_; } // S
 
 private:
+    HD void set_kz(int kz)
+    {
+        kx_ = 0b00'10'01 >> 2 * kz & 3; // (kz + 1) % 3
+        ky_ = 0b01'00'10 >> 2 * kz & 3; // (kz + 2) % 3
+        kz_ = kz;
+    }
     [[nodiscard]] HD Vec3 permuted(const Vec3& v) const
     {
         return {coordinate(v, kx_), coordinate(v, ky_), coordinate(v, kz_)};
