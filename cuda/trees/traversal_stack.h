@@ -18,6 +18,12 @@ public:
         return std::uint64_t{std::bit_cast<std::uint32_t>(entry)} << 32 | child;
     }
     HD void push(std::uint64_t element) { elements_[height_++] = element; }
+    /// Pushes it `times` times, 0 or 1.
+    HD void push(std::uint64_t element, int times)
+    {
+        elements_[height_] = element;
+        height_ += times;
+    }
     /// Sorts the last `count` elements, so that the one of the smallest entry is on top.
     HD void sort_last(int count)
     {

@@ -42,16 +42,17 @@ HD void traverse_with_children(const WideTreeView& tree, std::uint32_t next, con
             if (!stack.pop(limit, next)) return;
             continue;
         }
-        // Most nodes have one or two children that the ray enters.
+        // Most nodes have one or two children that the ray enters. Which of both cannot be predicted, so
+        // there is no branch for it: a second child that is absent is farther away than any other.
         const int first = take_lane(entered);
-        next = node.children[first];
-        if (entered == 0) continue;
-        const std::uint64_t one = TraversalStack::element(next, near[first]);
-        const int second = take_lane(entered);
-        const std::uint64_t other = TraversalStack::element(node.children[second], near[second]);
+        const std::uint64_t one = TraversalStack::element(node.children[first], near[first]);
+        const std::int64_t absent = (std::int64_t{entered} - 1) >> 63; // -1 or 0
+        const int second = take_lane(entered) % most_children;
+        const std::uint64_t other = TraversalStack::element(node.children[second], near[second]) |
+                                    static_cast<std::uint64_t>(absent);
         if (entered == 0) {
             const std::uint64_t nearer = one < other ? one : other; // map: traversal
-            stack.push(one ^ other ^ nearer);
+            stack.push(one ^ other ^ nearer, 1 + static_cast<int>(absent));
             next = static_cast<std::uint32_t>(nearer);
             continue;
         }
