@@ -255,7 +255,8 @@ HD inline Lanes magnitude(const Lanes& a)
 #endif
 }
 
-/// The number of the lowest lane in `bits`, which are not all 0; takes it out of them.
+/// The number of the lowest lane in `bits`, and takes it out of them. If there is none: -1 or a number
+/// of no lane.
 HD inline int take_lane(LaneBits& bits)
 {
 #if defined(__CUDA_ARCH__)

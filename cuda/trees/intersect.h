@@ -35,8 +35,7 @@ public:
         const Vec3 d = permuted(ray.direction);
         shear_ = Vec3(d.x, d.y, 1.0f) / d.z;
     }
-    HD explicit ShearedRay(const ShearOf<float>& shear)
-        : origin_(shear.origin), shear_(shear.factors)
+    HD explicit ShearedRay(const ShearOf<float>& shear) : origin_(shear.origin), shear_(shear.factors)
     {
         set_kz(static_cast<int>(shear.kz));
     }

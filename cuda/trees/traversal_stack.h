@@ -24,16 +24,13 @@ public:
         elements_[height_] = element;
         height_ += times;
     }
-    /// Sorts the last `count` elements, so that the one of the smallest entry is on top.
-    HD void sort_last(int count)
+    /// Pushes it, above or below the last element, of which there is one.
+    HD void push_in_order(std::uint64_t element)
     {
-        for (int i = height_ - count + 1; i < height_; ++i) {
-            const std::uint64_t element = elements_[i];
-            int place = i;
-            for (; place > height_ - count && elements_[place - 1] < element; --place)
-                elements_[place] = elements_[place - 1];
-            elements_[place] = element;
-        }
+        const std::uint64_t last = elements_[height_ - 1];
+        const std::uint64_t nearer = element < last ? element : last;
+        elements_[height_ - 1] = element ^ last ^ nearer;
+        elements_[height_++] = nearer;
     }
     /// Pops until an element has entry <= limit, and returns that one in `child`; false if there is
     /// none. An entry equal to the limit counts: the box may hold a primitive of lower number at the

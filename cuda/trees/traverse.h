@@ -20,9 +20,10 @@ struct NotCounted {
 };
 
 /// Calls test(group) for every group of triangles at or below `next` whose box the ray enters at a t <=
-/// `limit`, nearer children first. `next`: a node, or a group with leaf_bit; its own box is not tested.
-/// `test` returns the new limit: the t of the closest hit so far, or a negative number to stop. Calls
-/// count() for every test of a node. This form keeps every child that is still to be visited.
+/// `limit`. Of the children of a node the two nearest come first, in their order. `next`: a node, or a
+/// group with leaf_bit; its own box is not tested. `test` returns the new limit: the t of the closest
+/// hit so far, or a negative number to stop. Calls count() for every test of a node. This form keeps
+/// every child that is still to be visited.
 template <class Slabs, class Test, class Count = NotCounted>
 HD void traverse_with_children(const WideTreeView& tree, std::uint32_t next, const Slabs& slabs,
                                float limit, const Test& test, const Count& count = {})
@@ -47,24 +48,19 @@ HD void traverse_with_children(const WideTreeView& tree, std::uint32_t next, con
         const int first = take_lane(entered);
         const std::uint64_t one = TraversalStack::element(node.children[first], near[first]);
         const std::int64_t absent = (std::int64_t{entered} - 1) >> 63; // -1 or 0
-        const int second = take_lane(entered) % most_children;
+        const int second = take_lane(entered) & (most_children - 1);   // if absent, any number
         const std::uint64_t other = TraversalStack::element(node.children[second], near[second]) |
                                     static_cast<std::uint64_t>(absent);
-        if (entered == 0) {
-            const std::uint64_t nearer = one < other ? one : other; // map: traversal
-            stack.push(one ^ other ^ nearer, 1 + static_cast<int>(absent));
-            next = static_cast<std::uint32_t>(nearer);
-            continue;
-        }
-        int pushed = 2;
-        stack.push(one);
-        stack.push(other);
-        for (; entered != 0; ++pushed) {
+        std::uint64_t nearest = one < other ? one : other; // map: traversal
+        stack.push(one ^ other ^ nearest, 1 + static_cast<int>(absent));
+        while (entered != 0) { // seldom: to sort them all would need more branches
             const int lane = take_lane(entered);
-            stack.push(TraversalStack::element(node.children[lane], near[lane]));
+            const std::uint64_t element = TraversalStack::element(node.children[lane], near[lane]);
+            const std::uint64_t nearer = element < nearest ? element : nearest;
+            stack.push_in_order(element ^ nearest ^ nearer);
+            nearest = nearer;
         }
-        stack.sort_last(pushed);
-        stack.pop(limit, next);
+        next = static_cast<std::uint32_t>(nearest);
     }
 }
 

@@ -369,7 +369,11 @@ TEST(WideTree, BothTraversalsTestTheNearerGroupFirstAndNoneBeyondAHit) // map: t
         groups.resize(1 + static_cast<std::size_t>(i % fast::most_children));
         std::vector<std::uint32_t> sorted = groups;
         std::ranges::sort(sorted);
-        for (const auto& tested : groups_tested(groups, false)) EXPECT_EQ(tested, sorted);
+        auto [with_children, with_masks] = groups_tested(groups, false);
+        EXPECT_EQ(with_masks, sorted);
+        if (with_children.size() > 2) // in which order the others come is left open
+            std::ranges::sort(std::span(with_children).subspan(2));
+        EXPECT_EQ(with_children, sorted);
         sorted.resize(1);
         for (const auto& tested : groups_tested(groups, true)) EXPECT_EQ(tested, sorted);
     }
