@@ -57,23 +57,20 @@ void traverse_together(const WideTreeView& tree, const SlabRayOf<Floats>& rays, 
         }
         const WideNode& node = tree.nodes[child];
         const int first_ray = std::countr_zero(bits);
-        std::array<float, most_children> order; // of the children pushed: where the first ray enters
         const std::size_t bottom = height;
+        std::size_t nearest = bottom; // of the children pushed, the one that the first ray enters first
+        float least = infinity;
         for (int c = 0; c < most_children && node.children[c] != no_node; ++c) {
             Floats near;
             const Mask entered = slabs.entered(node.box(c), limit, near) && here;
-            if (none(entered)) continue;
             near = select(entered, near, Floats(infinity));
+            stack[height] = {near, node.children[c]};
             const float key = lane_of(near, first_ray);
-            // Sorted by insertion: the nearest child is on top.
-            std::size_t place = height++;
-            for (; place > bottom && order[place - 1 - bottom] < key; --place) {
-                order[place - bottom] = order[place - 1 - bottom];
-                stack[place] = stack[place - 1];
-            }
-            order[place - bottom] = key;
-            stack[place] = {near, node.children[c]};
+            nearest = key < least ? height : nearest;
+            least = key < least ? key : least;
+            height += any(entered) ? 1 : 0;
         }
+        if (height > bottom) std::swap(stack[nearest], stack[height - 1]);
     }
 }
 
