@@ -162,7 +162,8 @@ private:
           own_(memory, launch_size_.most()),
           kept_(memory, static_cast<std::size_t>(capacity_) * launch_size_.most()),
           queues_(memory, words_of_queues(launch_size_.most())), sums_(memory, pixels_),
-          splats_(memory, options.deterministic ? 0 : splat_pictures() * pixels_),
+          splat_copies_(splat_copies(executor, splat_pictures() * pixels_ * sizeof(Rgb))),
+          splats_(memory, options.deterministic ? 0 : splat_copies_ * splat_pictures() * pixels_),
           exact_(memory, options.deterministic ? 3 * splat_pictures() * pixels_ : 0),
           layers_(memory, options.strategies == images::StrategyPictures::none
                               ? 0
@@ -194,7 +195,7 @@ private:
     {
         const PathOptions path{options_.seed, options_.max_edges, options_.heuristic};
         const FilmTarget film{own_.all(),
-                              {splats_.all(), exact_.all()},
+                              {splats_.all(), exact_.all(), splat_copies_},
                               layers_.all(),
                               dropped_.all(),
                               options_.strategies == images::StrategyPictures::weighted,
@@ -226,8 +227,11 @@ private:
                 image.pixels[i] = {sums[3 * i].value(), sums[3 * i + 1].value(),
                                    sums[3 * i + 2].value()};
         } else {
-            const std::vector<Rgb> sums = splats_.read(first, pixels_);
-            for (std::size_t i = 0; i < pixels_; ++i) image.pixels[i] = images::Rgb(sums[i]);
+            for (std::size_t copy = 0; copy < splat_copies_; ++copy) {
+                const std::vector<Rgb> sums =
+                    splats_.read(copy * splat_pictures() * pixels_ + first, pixels_);
+                for (std::size_t i = 0; i < pixels_; ++i) image.pixels[i] += images::Rgb(sums[i]);
+            }
         }
         return image;
     }
@@ -278,6 +282,7 @@ private:
     Buffer<LightVertex> kept_;
     Buffer<std::uint32_t> queues_;
     Buffer<Rgb> sums_;
+    std::size_t splat_copies_;
     Buffer<Rgb> splats_;
     Buffer<ExactSum> exact_;
     Buffer<Rgb> layers_;

@@ -18,6 +18,14 @@ struct HostThreads : ThreadedExecutor {
     std::vector<std::uint32_t> stage_words; // the queues of all threads
 };
 
+/// One for each thread, unless they take too much memory: an atomic addition waits until the sum is
+/// there, while others can overlap.
+inline std::uint32_t splat_copies(const HostThreads& threads, std::size_t bytes)
+{
+    constexpr std::size_t most_bytes = std::size_t{1} << 28;
+    return threads.width() * bytes <= most_bytes ? threads.width() : 1;
+}
+
 // launch_samples on a HostThreads.
 template <>
 void launch_samples<Integrator::path>(HostThreads&, Needs, const SceneInMemory&, const SampleJob&);

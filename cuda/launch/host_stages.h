@@ -44,12 +44,12 @@ struct TraceBlocks {
                 std::uint64_t{next->fetch_add(1, std::memory_order_relaxed)} * block;
             if (first >= samples) return;
             const auto from = static_cast<std::uint32_t>(first);
-            trace(memory, from, std::min(block, samples - from));
+            trace(memory, thread, from, std::min(block, samples - from));
         }
     }
 };
 
-/// Calls trace(memory, first sample, samples) for blocks of at most `block` samples.
+/// Calls trace(memory, thread, first sample, samples) for blocks of at most `block` samples.
 template <class Memory, class Trace>
 void trace_blocks(HostThreads& threads, std::uint32_t samples, std::uint32_t block, const Trace& trace)
 {

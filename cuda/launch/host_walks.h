@@ -13,17 +13,18 @@ template <Integrator integrator>
 void launch_walks(HostThreads& threads, Needs needs, const SceneInMemory& scene, const SampleJob& job)
 {
     with_needs(needs, [&]<Needs known>() {
-        const StageJob<known> stages{scene.view<known>(), job.options, job.launch, job.film};
         using Memory = WalkMemory<integrator>;
-        trace_blocks<Memory>(threads, job.launch.count(), 512,
-                             [&](Memory& memory, std::uint32_t first, std::uint32_t count) {
-                                 const auto each = static_cast<std::size_t>(job.capacity);
-                                 StageExecutor executor;
-                                 HostStages run(executor);
-                                 memory.trace(run, stages, first, count,
-                                              job.kept.subspan(first * each, count * each),
-                                              job.capacity);
-                             });
+        trace_blocks<Memory>(
+            threads, job.launch.count(), 512,
+            [&](Memory& memory, std::uint32_t thread, std::uint32_t first, std::uint32_t count) {
+                const StageJob<known> stages{scene.view<known>(), job.options, job.launch,
+                                             job.film.of_thread(thread, threads.width())};
+                const auto each = static_cast<std::size_t>(job.capacity);
+                StageExecutor executor;
+                HostStages run(executor);
+                memory.trace(run, stages, first, count, job.kept.subspan(first * each, count * each),
+                             job.capacity);
+            });
     });
 }
 

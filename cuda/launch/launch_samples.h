@@ -31,6 +31,14 @@ std::size_t queue_words(const E& /*executor*/, Integrator /*integrator*/, std::u
     return 0;
 }
 
+/// In how many copies of `bytes` bytes each the splats of a batch are kept: one for all threads, to
+/// which they add atomically.
+template <Executor E>
+std::uint32_t splat_copies(const E& /*executor*/, std::size_t /*bytes*/)
+{
+    return 1;
+}
+
 /// The executor that builds the tree of a scene: this one, unless it runs on another.
 template <Executor E>
 E& builder_of(E& executor)

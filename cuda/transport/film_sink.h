@@ -22,8 +22,22 @@ HD constexpr std::uint32_t layer_of(int s, int t)
 struct SplatTarget {
     std::span<Rgb> sums;
     std::span<ExactSum> exact; // three for each of the pixels above; empty: sums are floats
+    std::size_t copies = 1;    // of the pictures, one after the other in `sums`
+    bool alone = false;        // no other thread adds to `sums`, so that nothing need be atomic
+
+    /// The copy of one of `threads` threads; all that there is if there is not one for each.
+    [[nodiscard]] SplatTarget of_thread(std::size_t thread, std::size_t threads) const
+    {
+        if (copies != threads) return *this;
+        const std::size_t each = sums.size() / copies;
+        return {sums.subspan(thread * each, each), exact, 1, true};
+    }
     HD void add(std::size_t i, const Rgb& value) const
     {
+        if (alone && exact.empty()) {
+            sums[i] += value;
+            return;
+        }
         for (int channel = 0; channel < 3; ++channel) {
             if (exact.empty())
                 fast::add(sums[i][channel], value[channel]);
@@ -56,6 +70,14 @@ struct FilmTarget {
     std::span<DroppedCount> dropped; // one
     bool weighted;                   // of the layers: whether they are weighted
     std::uint32_t pixels;            // pixels of the picture
+
+    /// With splats as SplatTarget::of_thread.
+    [[nodiscard]] FilmTarget of_thread(std::size_t thread, std::size_t threads) const
+    {
+        FilmTarget result = *this;
+        result.splats = splats.of_thread(thread, threads);
+        return result;
+    }
 };
 
 /// Takes the contributions of one sample.

@@ -92,7 +92,8 @@ SpentByStage profile(const scenes::Scene& scene, fast::Integrator integrator, st
     std::vector<fast::Rgb> own(launch.count());
     std::vector<fast::Rgb> splats(launch.pixels);
     std::vector<fast::DroppedCount> dropped(1);
-    const fast::FilmTarget film{own, {splats, {}}, {}, dropped, false, launch.pixels};
+    const fast::FilmTarget film =
+        fast::FilmTarget{own, {splats, {}}, {}, dropped, false, launch.pixels}.of_thread(0, 1);
     const fast::PathOptions options{0, max_edges, images::Heuristic::balance};
     SpentByStage spent;
     fast::with_needs(fast::compiled_for(arrays.needs), [&]<fast::Needs known>() {

@@ -1,6 +1,6 @@
 // Splats from many threads at once: none is lost, in any schedule.
 
-#include "cuda/parallel/threaded_executor.h"
+#include "cuda/launch/host_kernels.h"
 #include "cuda/transport/film_sink.h"
 #include "tests/cuda/parallel/interleaved_executor.h"
 
@@ -93,7 +93,45 @@ RC_GTEST_PROP(Splats, AreAllThereFromRealThreads, ())
     expect_all_there(executor, some_values(2, *rc::gen::inRange<std::size_t>(0, 3000)));
 }
 
-// Otherwise the test above would prove nothing.
+/// Kernel over threads: each adds its share of the splats, to its copy if there is one for each.
+struct AddShareOfSplats {
+    std::span<const float> values;
+    fast::SplatTarget target;
+    std::uint32_t threads;
+    void operator()(std::uint32_t thread) const
+    {
+        const AddSplats add{values, target.of_thread(thread, threads)};
+        for (std::uint32_t i = thread; i < values.size(); i += threads) add(i);
+    }
+};
+
+RC_GTEST_PROP(Splats, AreAllThereFromThreadsWithACopyEach, ())
+{
+    const auto threads = *rc::gen::inRange(1u, 5u);
+    const auto copies = *rc::gen::element(std::size_t{1}, std::size_t{threads});
+    const std::vector<float> values = some_values(4, *rc::gen::inRange<std::size_t>(0, 3000));
+    std::vector<fast::Rgb> sums(copies * pixels, fast::Rgb(0.0f));
+    fast::ThreadedExecutor executor(threads, 1);
+    executor(threads, AddShareOfSplats{values, {sums, {}, copies}, threads});
+    // A copy has the splats of its thread and no others.
+    for (std::size_t copy = 0; copy < copies; ++copy) {
+        std::vector<float> own(values.size(), 0.0f);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (copies == 1 || i % threads == copy) own[i] = values[i];
+        const auto first = sums.begin() + static_cast<std::ptrdiff_t>(copy * pixels);
+        RC_ASSERT(hold({first, first + pixels}, own));
+    }
+}
+
+TEST(Splats, HaveACopyForEachThreadUnlessThatIsTooMuchMemory)
+{
+    const fast::HostThreads threads(3);
+    EXPECT_EQ(splat_copies(threads, 1000), 3);
+    EXPECT_EQ(splat_copies(threads, std::size_t{1} << 28), 1);
+    EXPECT_EQ(splat_copies(fast::SerialExecutor(), 1000), 1); // of whole samples
+}
+
+// Otherwise the tests of all orders would prove nothing.
 TEST(Splats, ThatAreTornAreFound)
 {
     const std::vector<float> values = some_values(3, 32);
