@@ -71,6 +71,10 @@ HitOf<Floats> closest_hits(const SceneView<needs>& scene, const RayOf<Floats>& r
             });
             t.put(lane, hit.t);
             primitive.put(lane, hit.primitive);
+            if (hit.primitive < surfaces.triangle_count) {
+                prefetch(scene.triangles[hit.primitive]); // for the weights, below
+                prefetch(scene.surfaces[hit.primitive]);  // for the next stage
+            }
         }
         best.t = t.all();
         best.primitive = primitive.all();
