@@ -60,9 +60,8 @@ struct SlabRayOf {
             const F d = greater(magnitude_of(ray.direction[axis]), 0x1p-60f * longest);
             const F size = 1.0f / d;
             const F r = with_sign_of(size, ray.direction[axis]);
-            // The reciprocal itself must be in range, too: of a direction below 2^-127 it is not.
-            const F reach = greater(F(1.0f), 2.0f * magnitude_of(o) + m + p);
-            const MaskOf<F> in_range = reach * size <= largest;
+            // Of a direction below 2^-127 the reciprocal is infinite, and this product infinite or NaN.
+            const MaskOf<F> in_range = (2.0f * magnitude_of(o) + m + p) * size <= largest;
             reciprocal[axis] = select(in_range, r, F(std::numeric_limits<float>::min()));
             entering[axis] = select(in_range, -(o + outwards) * r, F(-largest));
             leaving[axis] = select(in_range, -(o - outwards) * r, F(largest));

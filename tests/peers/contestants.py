@@ -20,7 +20,8 @@ PLUMBLINE = {"plumbline path": ("path", PATH_EDGES), "plumbline bdpt": ("bdpt", 
 
 # (numerator, denominator): both draw the same picture, of paths with at most as many edges.
 PAIRS = [("plumbline path", "mitsuba llvm"), ("plumbline path", "mitsuba scalar"), ("plumbline path", "luxcore path"),
-         ("plumbline bdpt 24", "luxcore bidir"), ("plumbline bdpt", "plumbline path")]
+         ("plumbline bdpt 24", "luxcore bidir"), ("plumbline bdpt", "plumbline path"),
+         ("plumbline bdpt", "mitsuba llvm")]
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ SCENES = ("sphere-1e5", "sphere-1e6")
 Compared = namedtuple("Compared", "what ours theirs time")
 COMPARED = (
     *(Compared("diffuse rays", "diffuse/{}/hploc-wide", f"diffuse/{{}}/embree-{quality}", "cpu_time")
-      for quality in ("low", "medium")),
+      for quality in ("low", "medium", "low-robust", "medium-robust")),
     *(Compared("build, 1 thread", f"build/{{}}/{ours}/1", "build/{}/embree-low/1", "cpu_time")
       for ours in ("morton63", "hploc", "hploc-wide")),
     *(Compared("build, 2 threads / 1 thread", f"build/{{}}/{who}/2/real_time", f"build/{{}}/{who}/1", "real_time")

@@ -183,6 +183,23 @@ TEST(BatchRenderer, AddsUpAllContributionsOfAllSamples) // map: splat
     }
 }
 
+// A thread takes blocks of 512 samples; here there are 13 of them.
+TEST(BatchRenderer, AddsUpTheSplatsOfAllThreads)
+{
+    const auto scene = our_scene("cornell_glass");
+    auto options = short_paths(Integrator::light);
+    options.batch_size = 60;
+    const images::Image expected = sum_of_samples(scene, options, 0);
+    const images::Image batch = batch_of(scene, options, 3, width * height * 60, 0);
+    // As above; 60 samples have 15 times as many splats as 4.
+    const double bound = 0x1p-24 * 15 * 1000;
+    for (std::size_t i = 0; i < expected.pixels.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(batch.pixels[i][channel], expected.pixels[i][channel],
+                        bound * expected.pixels[i][channel])
+                << "pixel " << i;
+}
+
 TEST(BatchRenderer, ABatchDoesNotDependOnThoseBefore)
 {
     for (const bool deterministic : {false, true}) {
