@@ -74,7 +74,7 @@ class Kinds(unittest.TestCase):
         self.expect("relaxed", "__atomic_load_n(p, __ATOMIC_ACQUIRE);", "__atomic_load_n(p, __ATOMIC_RELAXED);")
 
     def test_constant(self):
-        self.expect("constant", "return 2.0f * c[2] + 0x1p-3;", "return 1.0f * c[2] + 0x1p-3;")
+        self.expect("constant", "return 2.0f * c[2] + 0x1p-3 + 0b1'0;", "return 1.0f * c[2] + 0x1p-3 + 0b1'0;")
         self.expect("constant", "return 0.5 * a + 0;", "return 1.0 * a + 0;")
         self.expect("constant", "return 32 * b;", "return 31 * b;")
         self.expect("constant", "return 1.0 - a * 1.0;", "return 2.0 - a * 1.0;")

@@ -140,10 +140,14 @@ def relaxed(source, types):
 
 
 def constant(source, types):
-    """2 becomes 1, 0.5 becomes 1.0; other whole numbers are less by one, other fractions twice as large."""
+    """2 becomes 1, 0.5 becomes 1.0; other whole numbers are less by one, other fractions twice as large.
+
+    Hexadecimal and binary numbers are left alone."""
     for i in range(1, len(source.tokens) - 1):
         number, around = source.texts[i], (source.texts[i - 1], source.texts[i + 1])
-        if source.tokens[i].kind != "number" or not source.live[i] or around[0] == "[" or "x" in number.lower():
+        if source.tokens[i].kind != "number" or not source.live[i] or around[0] == "[":
+            continue
+        if number.lower().startswith(("0x", "0b")):
             continue
         if number.rstrip("uU").isdigit():
             digits = number.rstrip("uU")
