@@ -144,6 +144,7 @@ private:
             }
             pixel += width;
         }
+        add_copies();
         return collect();
     }
 
@@ -162,7 +163,9 @@ private:
           own_(memory, launch_size_.most()),
           kept_(memory, static_cast<std::size_t>(capacity_) * launch_size_.most()),
           queues_(memory, words_of_queues(launch_size_.most())), sums_(memory, pixels_),
-          splat_copies_(splat_copies(executor, splat_pictures() * pixels_ * sizeof(Rgb))),
+          splat_copies_(options_.integrator == Integrator::path
+                            ? 1
+                            : splat_copies(executor, splat_pictures() * pixels_ * sizeof(Rgb))),
           splats_(memory, options.deterministic ? 0 : splat_copies_ * splat_pictures() * pixels_),
           exact_(memory, options.deterministic ? 3 * splat_pictures() * pixels_ : 0),
           layers_(memory, options.strategies == images::StrategyPictures::none
@@ -216,6 +219,15 @@ private:
                                             launch.samples});
     }
 
+    /// Adds the splats of all threads to those of the first.
+    void add_copies()
+    {
+        if (splat_copies_ == 1 || options_.deterministic) return;
+        executor_(static_cast<std::uint32_t>(splat_pictures() * pixels_),
+                  AddCopies{splats_.all(), splat_copies_});
+        executor_.wait();
+    }
+
     /// The splats of picture i; see SplatTarget.
     [[nodiscard]] images::Image splats(std::size_t picture) const
     {
@@ -227,11 +239,8 @@ private:
                 image.pixels[i] = {sums[3 * i].value(), sums[3 * i + 1].value(),
                                    sums[3 * i + 2].value()};
         } else {
-            for (std::size_t copy = 0; copy < splat_copies_; ++copy) {
-                const std::vector<Rgb> sums =
-                    splats_.read(copy * splat_pictures() * pixels_ + first, pixels_);
-                for (std::size_t i = 0; i < pixels_; ++i) image.pixels[i] += images::Rgb(sums[i]);
-            }
+            const std::vector<Rgb> sums = splats_.read(first, pixels_);
+            for (std::size_t i = 0; i < pixels_; ++i) image.pixels[i] = images::Rgb(sums[i]);
         }
         return image;
     }

@@ -18,11 +18,11 @@ struct HostThreads : ThreadedExecutor {
     std::vector<std::uint32_t> stage_words; // the queues of all threads
 };
 
-/// One for each thread, unless they take too much memory: an atomic addition waits until the sum is
-/// there, while others can overlap.
+/// One for each thread: an atomic addition waits until the sum is there, while others can overlap. Not
+/// if they take so much memory that to clear them and to add them up costs more than that.
 inline std::uint32_t splat_copies(const HostThreads& threads, std::size_t bytes)
 {
-    constexpr std::size_t most_bytes = std::size_t{1} << 28;
+    constexpr std::size_t most_bytes = std::size_t{1} << 26;
     return threads.width() * bytes <= most_bytes ? threads.width() : 1;
 }
 

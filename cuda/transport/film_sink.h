@@ -137,6 +137,19 @@ struct SumSamples {
     }
 };
 
+/// Kernel over the pixels of all pictures of a SplatTarget with floats: adds the other copies to the
+/// first, in their order.
+struct AddCopies {
+    std::span<Rgb> sums;
+    std::size_t copies;
+
+    HD void operator()(std::uint32_t index) const
+    {
+        const std::size_t each = sums.size() / copies;
+        for (std::size_t copy = 1; copy < copies; ++copy) sums[index] += sums[copy * each + index];
+    }
+};
+
 /// Kernel over elements: each gets its default value, which is 0 for numbers.
 template <class T>
 struct Clear {
