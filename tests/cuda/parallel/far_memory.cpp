@@ -39,12 +39,12 @@ void FarMemory::release(void* /*block*/) noexcept {}
 
 void FarMemory::write(void* to, const void* from, std::size_t bytes)
 {
-    accessed_by([&] { std::memcpy(to, from, bytes); });
+    if (bytes > 0) accessed_by([&] { std::memcpy(to, from, bytes); }); // else a pointer may be null
 }
 
 void FarMemory::read(void* to, const void* from, std::size_t bytes)
 {
-    accessed_by([&] { std::memcpy(to, from, bytes); });
+    if (bytes > 0) accessed_by([&] { std::memcpy(to, from, bytes); }); // else a pointer may be null
 }
 
 void FarMemory::accessed_by(const std::function<void()>& function)
