@@ -56,8 +56,8 @@ public:
 private:
     HD void set_kz(int kz)
     {
-        kx_ = 0b00'10'01 >> 2 * kz & 3; // (kz + 1) % 3
-        ky_ = 0b01'00'10 >> 2 * kz & 3; // (kz + 2) % 3
+        kx_ = next_axis(kz);
+        ky_ = next_axis(kx_);
         kz_ = kz;
     }
     [[nodiscard]] HD Vec3 permuted(const Vec3& v) const
