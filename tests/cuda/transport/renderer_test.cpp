@@ -164,6 +164,16 @@ images::Image sum_of_samples(const scenes::Scene& scene, const images::RenderOpt
     return sum;
 }
 
+/// Expects that the two pictures differ by at most `bound`, relative to the expected one.
+void expect_within(double bound, const images::Image& batch, const images::Image& expected)
+{
+    for (std::size_t i = 0; i < expected.pixels.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(batch.pixels[i][channel], expected.pixels[i][channel],
+                        bound * expected.pixels[i][channel])
+                << "pixel " << i;
+}
+
 TEST(BatchRenderer, AddsUpAllContributionsOfAllSamples) // map: splat
 {
     for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light}) {
@@ -175,11 +185,7 @@ TEST(BatchRenderer, AddsUpAllContributionsOfAllSamples) // map: splat
         // sample adds fewer than 32 terms to its own pixel, four samples are added in turn, and fewer
         // than 1000 splats fall on a pixel of so small a picture.
         const double bound = 0x1p-24 * (32 + 4 + 1000);
-        for (std::size_t i = 0; i < expected.pixels.size(); ++i)
-            for (int channel = 0; channel < 3; ++channel)
-                EXPECT_NEAR(batch.pixels[i][channel], expected.pixels[i][channel],
-                            bound * expected.pixels[i][channel])
-                    << "pixel " << i;
+        expect_within(bound, batch, expected);
     }
 }
 
@@ -193,11 +199,7 @@ TEST(BatchRenderer, AddsUpTheSplatsOfAllThreads)
     const images::Image batch = batch_of(scene, options, 3, width * height * 60, 0);
     // As above; 60 samples have 15 times as many splats as 4.
     const double bound = 0x1p-24 * 15 * 1000;
-    for (std::size_t i = 0; i < expected.pixels.size(); ++i)
-        for (int channel = 0; channel < 3; ++channel)
-            EXPECT_NEAR(batch.pixels[i][channel], expected.pixels[i][channel],
-                        bound * expected.pixels[i][channel])
-                << "pixel " << i;
+    expect_within(bound, batch, expected);
 }
 
 TEST(BatchRenderer, ABatchDoesNotDependOnThoseBefore)
