@@ -76,7 +76,7 @@ Timed time_on_host(fast::ThreadedExecutor& executor, const std::vector<fast::Aab
     tree.build(executor, boxes); // touches all memory once
     fast::throw_if_rejected(tree.first_rejected(), boxes);
     fast::Hploc clustered(memory, static_cast<std::uint32_t>(boxes.size()));
-    clustered.build(executor, boxes, tree);
+    clustered.build(executor, boxes, tree.order());
     Timed timed{std::vector<Milliseconds>(static_cast<std::size_t>(repeats)),
                 fast::sah_cost(std::as_const(tree).nodes()),
                 {},
@@ -88,7 +88,7 @@ Timed time_on_host(fast::ThreadedExecutor& executor, const std::vector<fast::Aab
             stages[static_cast<std::size_t>(stage)] = ms_between(start, end);
             start = end;
         });
-        clustered.build(executor, boxes, tree);
+        clustered.build(executor, boxes, tree.order());
         timed.clustering.push_back(ms_between(start, Clock::now()));
     }
     return timed;

@@ -117,7 +117,7 @@ BuiltTree DeviceLbvh::download_clustered()
     return std::visit(
         [&](auto& tree) {
             Hploc clustered(parts_->memory, tree.primitive_count());
-            clustered.build(parts_->executor, parts_->current(), tree);
+            clustered.build(parts_->executor, parts_->current(), tree.order());
             return BuiltTree{parts_->read(clustered.nodes()),
                              parts_->read(clustered.leaf_links()),
                              parts_->read(tree.primitives()),

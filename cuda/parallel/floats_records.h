@@ -146,16 +146,6 @@ void put_lane(Record& record, int lane, const typename detail::One<Record>::Type
     record = std::bit_cast<Record>(members);
 }
 
-/// Begins to load an element that will be read later: meanwhile other work is done.
-template <class T>
-void prefetch(const T& element)
-{
-    static_assert(sizeof(T) <= 64); // a cache line, so at most two are loaded
-    const char* const bytes = reinterpret_cast<const char*>(&element);
-    __builtin_prefetch(bytes);
-    __builtin_prefetch(bytes + sizeof(T) - 1);
-}
-
 /// Floats or Words in memory, for code that reads and writes single lanes: lane_of and put_lane store
 /// and load all lanes each time.
 template <class Number>

@@ -233,6 +233,12 @@ HD inline Lanes load_lanes(const float* from)
     return result;
 }
 
+/// The inverse.
+HD inline void store_lanes(const Lanes& lanes, float* to)
+{
+    std::memcpy(to, &lanes, sizeof lanes);
+}
+
 /// Where a == b; not where one of them is NaN.
 HD inline LaneBits equal(const Lanes& a, const Lanes& b)
 {

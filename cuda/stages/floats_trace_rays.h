@@ -2,6 +2,7 @@
 
 // The queries of stages for many rays at once.
 
+#include "cuda/parallel/prefetch.h"
 #include "cuda/stages/floats_traverse.h"
 #include "cuda/stages/trace_rays.h"
 

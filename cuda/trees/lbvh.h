@@ -1,58 +1,77 @@
 #pragma once
 
-// A tree over boxes along a Morton curve: bounds, codes, sort, tree, refit. The stages are launched
-// one after the other on an executor, and no stage needs a result on the host. So on a device the
-// whole build can be queued at once, or captured in a graph.
+// A radix tree over boxes along a Morton curve: order, tree, refit. As in morton_order.h, no stage needs
+// a result on the host.
 
 #include "cuda/parallel/buffer.h"
-#include "cuda/parallel/radix_sort.h"
-#include "cuda/parallel/reduce.h"
-#include "cuda/trees/check_input.h"
-#include "cuda/trees/morton.h"
+#include "cuda/trees/morton_order.h"
 #include "cuda/trees/radix_tree.h"
 #include "cuda/trees/refit.h"
 
-#include <array>
 #include <concepts>
-#include <stdexcept>
-#include <string>
+#include <cstdint>
+#include <span>
 
 namespace fast {
 
-/// The parts of a build, in their order.
-enum class Stage { bounds, codes, sort, tree, refit };
-constexpr std::array<const char*, 5> stage_names = {"bounds", "codes", "sort", "tree", "refit"};
+/// The radix tree over sorted codes (node.h), and its memory.
+class RadixTree {
+public:
+    /// For up to `capacity` primitives. Throws OutOfMemory.
+    RadixTree(Memory& memory, std::uint32_t capacity)
+        : nodes_(memory, internal_nodes(capacity)), leaf_links_(memory, capacity)
+    {}
+    /// Queues the build. The bounds in the nodes are undefined until the first refit.
+    template <Executor E, class Code>
+    void build(E& executor, std::span<const Code> codes)
+    {
+        count_ = static_cast<std::uint32_t>(codes.size());
+        const std::span<std::uint32_t> links = leaf_links_.first(count_);
+        if (count_ == 1) executor(1, UnlinkOnlyLeaf{links});
+        executor(internal_nodes(count_), BuildRadixTree<Code>{codes, nodes(), links});
+    }
+    /// Queues the computation of all bounds from the boxes of the primitives.
+    template <Executor E>
+    void refit(E& executor, std::span<const Aabb> boxes, std::span<const std::uint32_t> primitives)
+    {
+        executor(count_, RefitBounds<>{boxes, primitives, leaf_links_.first(count_), nodes()});
+    }
 
-/// A tree over the leaves of a Morton curve (node.h), and all memory that the build needs: rebuilding
-/// allocates nothing. `Code` is std::uint32_t for codes of 30 bits or std::uint64_t for 63.
+    [[nodiscard]] std::uint32_t primitive_count() const { return count_; }
+    [[nodiscard]] std::span<Node> nodes() { return nodes_.first(internal_nodes(count_)); }
+    [[nodiscard]] std::span<const Node> nodes() const { return nodes_.first(internal_nodes(count_)); }
+    [[nodiscard]] std::span<const std::uint32_t> leaf_links() const { return leaf_links_.first(count_); }
+
+private:
+    static std::uint32_t internal_nodes(std::uint32_t primitives)
+    {
+        return primitives == 0 ? 0 : primitives - 1;
+    }
+
+    std::uint32_t count_ = 0;
+    Buffer<Node> nodes_;
+    Buffer<std::uint32_t> leaf_links_;
+};
+
+/// A radix tree over boxes, and all memory that the build needs: rebuilding allocates nothing. `Code` as
+/// for MortonOrder.
 template <class Code>
 class Lbvh {
 public:
-    /// For up to `capacity` primitives, at most most_primitives, in the memory that the kernels of
-    /// `executor` access. Throws OutOfMemory, and std::invalid_argument for a larger capacity.
+    /// As for MortonOrder.
     template <Executor E>
     Lbvh(Memory& memory, const E& executor, std::uint32_t capacity)
-        : nodes_(memory, internal_nodes(checked(capacity))),
-          leaf_links_(memory, capacity), codes_{Buffer<Code>(memory, capacity),
-                                                Buffer<Code>(memory, capacity)},
-          primitives_{Buffer<std::uint32_t>(memory, capacity), Buffer<std::uint32_t>(memory, capacity)},
-          centroid_bounds_(memory, 1),
-          centroid_bounds_scratch_(memory,
-                                   reduce_scratch(executor, capacity, BoundCentroid{},
-                                                  UniteCentroidBounds{}, empty_centroid_bounds())),
-          sort_scratch_(memory, sort_scratch<Code, std::uint32_t>(executor, capacity, code_bits<Code>))
+        : order_(memory, executor, capacity), tree_(memory, capacity)
     {}
 
-    /// Queues the build of the tree over `boxes`, which must not change until it is done. A second
-    /// build may be queued only on the same executor, after the first. `finished(stage)` is called as
-    /// soon as a stage is queued. Throws std::length_error for more boxes than the capacity.
-    ///
-    /// Boxes that are empty or not finite are not legal. With such boxes the build ends, the tree is
-    /// undefined, and first_rejected() gives the lowest number of such a box.
+    /// Queues the build of the tree over `boxes`. Conditions, `finished` and errors as for MortonOrder;
+    /// with boxes that are not legal the tree is undefined.
     template <Executor E, std::invocable<Stage> Finished>
     void build(E& executor, std::span<const Aabb> boxes, const Finished& finished)
     {
-        build_links(executor, boxes, finished);
+        order_.build(executor, boxes, finished);
+        tree_.build(executor, order_.codes());
+        finished(Stage::tree);
         refit(executor, boxes);
         finished(Stage::refit);
     }
@@ -62,89 +81,29 @@ public:
         build(executor, boxes, [](Stage) {});
     }
 
-    /// build without the last stage: the order of the leaves and the links between nodes. The bounds in
-    /// the nodes are undefined.
-    template <Executor E, std::invocable<Stage> Finished>
-    void build_links(E& executor, std::span<const Aabb> boxes, const Finished& finished)
-    {
-        if (boxes.size() > leaf_links_.size())
-            throw std::length_error("a tree over " + std::to_string(boxes.size()) +
-                                    " primitives does not fit where there is room for " +
-                                    std::to_string(leaf_links_.size()));
-        count_ = static_cast<std::uint32_t>(boxes.size());
-
-        map_reduce(executor, count_, BoundCentroid{boxes}, UniteCentroidBounds{},
-                   empty_centroid_bounds(), centroid_bounds_scratch_.all(), centroid_bounds_.all());
-        finished(Stage::bounds);
-
-        Alternating<Code> codes{codes_[0].first(count_), codes_[1].first(count_)};
-        Alternating<std::uint32_t> order{primitives_[0].first(count_), primitives_[1].first(count_)};
-        executor(count_,
-                 ComputeMortonCodes<Code>{boxes, centroid_bounds_.all(), codes.current, order.current});
-        finished(Stage::codes);
-
-        radix_sort(executor, codes, order, code_bits<Code>, sort_scratch_.all());
-        sorted_codes_ = codes.current;
-        sorted_primitives_ = order.current;
-        finished(Stage::sort);
-
-        const std::span<std::uint32_t> leaf_links = leaf_links_.first(count_);
-        const std::span<Node> nodes = nodes_.first(internal_nodes(count_));
-        if (count_ == 1) executor(1, UnlinkOnlyLeaf{leaf_links});
-        executor(internal_nodes(count_), BuildRadixTree<Code>{codes.current, nodes, leaf_links});
-        finished(Stage::tree);
-    }
-    template <Executor E>
-    void build_links(E& executor, std::span<const Aabb> boxes)
-    {
-        build_links(executor, boxes, [](Stage) {});
-    }
-
     /// Queues a refit of the same tree to new boxes of the same primitives, for example after they
     /// moved.
     template <Executor E>
     void refit(E& executor, std::span<const Aabb> boxes)
     {
-        executor(count_, RefitBounds<>{boxes, sorted_primitives_, leaf_links_.first(count_), nodes()});
+        tree_.refit(executor, boxes, order_.primitives());
     }
 
     // Results of the last build that was queued, in the memory of its kernels; valid once it is done.
-    [[nodiscard]] std::uint32_t primitive_count() const { return count_; }
-    [[nodiscard]] std::span<Node> nodes() { return nodes_.first(internal_nodes(count_)); }
-    [[nodiscard]] std::span<const Node> nodes() const { return nodes_.first(internal_nodes(count_)); }
-    [[nodiscard]] std::span<const std::uint32_t> leaf_links() const { return leaf_links_.first(count_); }
-    [[nodiscard]] std::span<const std::uint32_t> primitives() const { return sorted_primitives_; }
-    [[nodiscard]] std::span<const Code> codes() const { return sorted_codes_; } // in the order of leaves
+    [[nodiscard]] std::uint32_t primitive_count() const { return tree_.primitive_count(); }
+    [[nodiscard]] std::span<Node> nodes() { return tree_.nodes(); }
+    [[nodiscard]] std::span<const Node> nodes() const { return tree_.nodes(); }
+    [[nodiscard]] std::span<const std::uint32_t> leaf_links() const { return tree_.leaf_links(); }
+    [[nodiscard]] std::span<const std::uint32_t> primitives() const { return order_.primitives(); }
+    [[nodiscard]] std::span<const Code> codes() const { return order_.codes(); }
+    [[nodiscard]] const MortonOrder<Code>& order() const { return order_; }
 
     /// Waits for the build. The lowest number of a primitive whose box is not legal, or no_primitive.
-    [[nodiscard]] std::uint32_t first_rejected() const
-    {
-        return centroid_bounds_.read(1)[0].first_rejected;
-    }
+    [[nodiscard]] std::uint32_t first_rejected() const { return order_.first_rejected(); }
 
 private:
-    static std::uint32_t internal_nodes(std::uint32_t primitives)
-    {
-        return primitives == 0 ? 0 : primitives - 1;
-    }
-    static std::uint32_t checked(std::uint32_t capacity)
-    {
-        if (capacity > most_primitives)
-            throw std::invalid_argument("a tree may have " + std::to_string(most_primitives) +
-                                        " primitives, not " + std::to_string(capacity));
-        return capacity;
-    }
-
-    std::uint32_t count_ = 0;
-    Buffer<Node> nodes_;
-    Buffer<std::uint32_t> leaf_links_;
-    std::array<Buffer<Code>, 2> codes_;
-    std::array<Buffer<std::uint32_t>, 2> primitives_;
-    std::span<const Code> sorted_codes_;
-    std::span<const std::uint32_t> sorted_primitives_;
-    Buffer<CentroidBounds> centroid_bounds_;
-    Buffer<CentroidBounds> centroid_bounds_scratch_;
-    Buffer<std::uint32_t> sort_scratch_;
+    MortonOrder<Code> order_;
+    RadixTree tree_;
 };
 
 } // namespace fast

@@ -38,13 +38,15 @@ HD inline std::uint32_t spread_bits(std::uint32_t x)
     return x;
 }
 
-/// The same for the low 21 bits: two groups of ten bits, and one bit.
+/// The same for the low 21 bits.
 HD inline std::uint64_t spread_bits(std::uint64_t x)
 {
-    const std::uint64_t low = spread_bits(static_cast<std::uint32_t>(x & 0x3ff));
-    const std::uint64_t middle = spread_bits(static_cast<std::uint32_t>(x >> 10 & 0x3ff));
-    const std::uint64_t high = x >> 20 & 1;
-    return high << 60 | middle << 30 | low;
+    x = (x | x << 32) & 0x001f'0000'0000'ffffu;
+    x = (x | x << 16) & 0x001f'0000'ff00'00ffu;
+    x = (x | x << 8) & 0x100f'00f0'0f00'f00fu;
+    x = (x | x << 4) & 0x10c3'0c30'c30c'30c3u;
+    x = (x | x << 2) & 0x1249'2492'4924'9249u;
+    return x;
 }
 
 /// The cell of `x` between `lower` and `upper`, one of 2^bits cells. An axis without extent has one

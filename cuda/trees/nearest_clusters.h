@@ -29,33 +29,36 @@ struct Cluster {
     std::uint32_t height; // edges from the root to the deepest leaf
 };
 
-/// The first cluster in the list that is a neighbour of cluster i.
-HD constexpr std::uint32_t first_neighbour(std::uint32_t i)
+/// The other half of the pair (2 k, 2 k + 1) that cluster i of a list of `count`, at least two, belongs
+/// to; its neighbour before it if there is none.
+HD constexpr std::uint32_t partner(std::uint32_t i, std::uint32_t count)
 {
-    return i == 0 ? 1 : i < search_radius ? 0 : i - search_radius;
+    return (i ^ 1) < count ? i ^ 1 : i - 1;
 }
 
-/// The neighbour whose common box with cluster i of `list` (at least two) has the smallest area, where
-/// an area of NaN (0 * infinity) counts as infinite. Of several it takes the other half of the pair
-/// (2 k, 2 k + 1) that i belongs to, if both boxes are equal, or else the first pair, ordered by both
-/// numbers. So the best pair of all is mutual, and every round merges something; and a round merges half
-/// of many equal boxes, so that they do not give a long chain of nodes.
+/// The neighbour whose common box with cluster i of `list` (at least two) has the smallest area. Areas
+/// that are infinite or NaN (0 * infinity) do not count; if there is no other, the partner is nearest.
+///
+/// Among pairs of equal area the order is: by the distance in the list; those whose first number is even
+/// before the others; by the first number. That is a total order of pairs, so the first pair of all is
+/// mutual, and every round merges something. And a round merges half of many equal boxes, or of many
+/// boxes that follow each other at equal distances, so that they do not give a long chain of nodes.
 HD inline std::uint32_t nearest_cluster(std::span<const Cluster> list, std::uint32_t i)
 {
     const auto count = static_cast<std::uint32_t>(list.size());
-    const std::uint32_t end = i + search_radius < count ? i + search_radius + 1 : count;
-    const Aabb box = list[i].box;
-    const std::uint32_t paired = i ^ 1;
-    if (paired < count && box.lower == list[paired].box.lower && box.upper == list[paired].box.upper)
-        return paired;
-    std::uint32_t best = first_neighbour(i);
-    float smallest = std::numeric_limits<float>::infinity();
-    for (std::uint32_t j = best; j < end; ++j) {
-        const float area = half_area(unite(box, list[j].box));
-        if (j != i && area < smallest) {
-            smallest = area;
-            best = j;
-        }
+    std::uint32_t best = partner(i, count);
+    float least = std::numeric_limits<float>::infinity();
+    const auto compare = [&](std::uint32_t first, std::uint32_t second) {
+        const float area = half_area(unite(list[first].box, list[second].box));
+        if (!(area < least)) return;
+        least = area;
+        best = first == i ? second : first;
+    };
+    for (std::uint32_t distance = 1; distance <= search_radius; ++distance) {
+        const bool behind_first = i % 2 == 0 && distance % 2 == 1;
+        if (behind_first && i + distance < count) compare(i, i + distance);
+        if (distance <= i) compare(i - distance, i);
+        if (!behind_first && i + distance < count) compare(i, i + distance);
     }
     return best;
 }
@@ -74,7 +77,8 @@ private:
     std::uint32_t nearest_[most];
 };
 
-/// The same for lane_count of them at once; `most` is a multiple of that.
+/// The same for lane_count of them at once; `most` is a multiple of that. The area of a pair is computed
+/// once, for both of its clusters.
 template <std::uint32_t most>
 class NearestAtOnce {
 public:
@@ -82,72 +86,85 @@ public:
         : count_(static_cast<std::uint32_t>(list.size()))
     {
         constexpr float infinity = std::numeric_limits<float>::infinity();
-        const std::uint32_t end = (count_ + lane_count - 1) / lane_count * lane_count + search_radius;
-        for (int axis = 0; axis < 3; ++axis) {
-            float* const lower = planes_[axis] + search_radius;
-            float* const upper = planes_[3 + axis] + search_radius;
-            for (std::uint32_t i = 0; i < count_; ++i) {
-                lower[i] = list[i].box.lower[axis];
-                upper[i] = list[i].box.upper[axis];
+        for (std::uint32_t i = 0; i < count_; ++i)
+            for (int axis = 0; axis < 3; ++axis) {
+                planes_[axis][i] = list[i].box.lower[axis];
+                planes_[3 + axis][i] = list[i].box.upper[axis];
             }
-            // Before and behind the list: boxes so large that none of them is the nearest.
-            for (std::uint32_t i = 0; i < search_radius; ++i) {
+        // Behind the list: boxes so large that none of them is the nearest.
+        const std::uint32_t end = (count_ + lane_count - 1) / lane_count * lane_count + search_radius;
+        for (std::uint32_t i = count_; i < end; ++i)
+            for (int axis = 0; axis < 3; ++axis) {
                 planes_[axis][i] = -infinity;
                 planes_[3 + axis][i] = infinity;
             }
-            for (std::uint32_t i = count_; i < end; ++i) {
-                lower[i] = -infinity;
-                upper[i] = infinity;
-            }
-        }
-        for (std::uint32_t i = 0; i < count_; i += lane_count) search(i);
+        for (auto& areas : areas_) store_lanes(all_lanes(infinity), areas); // before the list
+        for (std::uint32_t i = 0; i < count_; i += lane_count) compute_areas(i);
+        for (std::uint32_t i = 0; i < count_; i += lane_count) choose(i);
     }
-    [[nodiscard]] std::uint32_t operator[](std::uint32_t i) const { return nearest_[i]; }
+    [[nodiscard]] std::uint32_t operator[](std::uint32_t i) const
+    {
+        const int step = static_cast<int>(steps_[i]);
+        return step == 0 ? partner(i, count_) : i + static_cast<std::uint32_t>(step);
+    }
 
 private:
-    /// Of the clusters first, first + 1, ...
-    void search(std::uint32_t first)
+    /// Of the pairs (i, i + distance) for i = first, first + 1, ... and all distances.
+    void compute_areas(std::uint32_t first)
     {
         const Lanes box[6] = {plane(0, first), plane(1, first), plane(2, first),
                               plane(3, first), plane(4, first), plane(5, first)};
-        Lanes smallest = all_lanes(std::numeric_limits<float>::infinity());
-        Lanes best = all_lanes(0.0f); // the distance in the list; 0: none
-        const auto compare_with = [&](int distance) {
-            const std::uint32_t other = first + static_cast<std::uint32_t>(distance);
+        for (std::uint32_t distance = 1; distance <= search_radius; ++distance) {
             Lanes extent[3];
             for (int axis = 0; axis < 3; ++axis)
-                extent[axis] = larger(plane(3 + axis, other), box[3 + axis]) -
-                               smaller(plane(axis, other), box[axis]);
-            const Lanes area = extent[0] * extent[1] + extent[1] * extent[2] + extent[2] * extent[0];
-            best = where_below(area, smallest, all_lanes(static_cast<float>(distance)), best);
-            smallest = smaller(area, smallest);
-        };
-        constexpr int radius = search_radius;
-        for (int distance = -radius; distance < 0; ++distance) compare_with(distance);
-        for (int distance = 1; distance <= radius; ++distance) compare_with(distance);
-        LaneBits same_as_next = (1u << lane_count) - 1;
-        for (int number = 0; number < 6; ++number)
-            same_as_next &= equal(plane(number, first + 1), box[number]);
-        for (std::uint32_t lane = 0; lane < lane_count && first + lane < count_; ++lane) {
-            const std::uint32_t i = first + lane;
-            const bool even = i % 2 == 0;
-            if ((same_as_next >> (even ? lane : lane - 1) & 1) != 0 && (i ^ 1) < count_)
-                nearest_[i] = i ^ 1;
-            else if (const int distance = static_cast<int>(best[static_cast<int>(lane)]); distance != 0)
-                nearest_[i] = static_cast<std::uint32_t>(static_cast<int>(i) + distance);
-            else
-                nearest_[i] = first_neighbour(i);
+                extent[axis] = larger(plane(3 + axis, first + distance), box[3 + axis]) -
+                               smaller(plane(axis, first + distance), box[axis]);
+            store_lanes(extent[0] * extent[1] + extent[1] * extent[2] + extent[2] * extent[0],
+                        area_of(first, distance));
         }
     }
-    /// Plane `number` of the boxes first, first + 1, ...; first may be up to search_radius less than 0.
+    /// The nearest of first, first + 1, ...
+    void choose(std::uint32_t first)
+    {
+        constexpr float preferred[lane_count] = {0.5f, 0, 0.5f, 0, 0.5f, 0, 0.5f, 0};
+        struct Nearest {
+            Lanes area = all_lanes(std::numeric_limits<float>::infinity());
+            Lanes distance = all_lanes(0.0f);
+        } before, behind;
+        for (std::uint32_t distance = 1; distance <= search_radius; ++distance) {
+            const Lanes far = all_lanes(static_cast<float>(distance));
+            // Half a place nearer where this pair goes before the one of the same distance on the other
+            // side.
+            const Lanes far_behind = distance % 2 == 1 ? far - load_lanes(preferred) : far;
+            const Lanes area = load_lanes(area_of(first, distance));
+            behind.distance = where_below(area, behind.area, far_behind, behind.distance);
+            behind.area = smaller(area, behind.area);
+            const Lanes area_before = load_lanes(area_of(first, distance) - distance);
+            before.distance = where_below(area_before, before.area, far, before.distance);
+            before.area = smaller(area_before, before.area);
+        }
+        const Lanes step_behind = behind.distance + all_lanes(0.5f); // read without the fraction
+        const Lanes step_before = -before.distance;
+        const Lanes if_equal = where_below(behind.distance, before.distance, step_behind, step_before);
+        store_lanes(where_below(behind.area, before.area, step_behind,
+                                where_below(before.area, behind.area, step_before, if_equal)),
+                    steps_ + first);
+    }
+    /// Of the pair (i, i + distance).
+    [[nodiscard]] float* area_of(std::uint32_t i, std::uint32_t distance)
+    {
+        return areas_[distance - 1] + (search_radius + i);
+    }
+    /// Plane `number` of the boxes first, first + 1, ...
     [[nodiscard]] Lanes plane(int number, std::uint32_t first) const
     {
-        return load_lanes(planes_[number] + (search_radius + first));
+        return load_lanes(planes_[number] + first);
     }
 
     std::uint32_t count_;
-    float planes_[6][search_radius + most + search_radius]; // lower x, y, z; upper x, y, z
-    std::uint32_t nearest_[most];
+    float planes_[6][most + search_radius];            // lower x, y, z; upper x, y, z
+    float areas_[search_radius][search_radius + most]; // infinite for the pairs (-8, ...) to (-1, ...)
+    float steps_[most];                                // to the nearest in the list; 0: there is none
 };
 
 /// The form for this processor.

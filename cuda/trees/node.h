@@ -7,6 +7,7 @@
 #include "cuda/trees/aabb.h"
 
 #include <cstdint>
+#include <span>
 
 namespace fast {
 
@@ -43,5 +44,17 @@ struct alignas(64) Node {
     std::uint32_t arrivals; // 0 but during a refit
 };
 static_assert(sizeof(Node) == 64);
+
+/// The child that a link (Node::link) leads to.
+HD inline std::uint32_t child_at(std::span<const Node> nodes, std::uint32_t link)
+{
+    return nodes[link >> 1].children[link & 1];
+}
+
+/// Its box.
+HD inline const Aabb& box_at(std::span<const Node> nodes, std::uint32_t link)
+{
+    return nodes[link >> 1].bounds[link & 1];
+}
 
 } // namespace fast

@@ -15,6 +15,19 @@
 
 namespace fast {
 
+/// delta(i, j): the length of the longest common prefix of keys i and j; -1 if there is no key j.
+template <class Code>
+HD int common_prefix(std::span<const Code> codes, std::int32_t i, std::int32_t j)
+{
+    if (j < 0 || j >= static_cast<std::int32_t>(codes.size())) return -1;
+    const Code a = codes[static_cast<std::uint32_t>(i)];
+    const Code b = codes[static_cast<std::uint32_t>(j)];
+    if (a != b) return std::countl_zero(static_cast<Code>(a ^ b)); // map: delta
+    // Equal codes: their indices decide, below every bit of the code [Karras 2012, sec. 4].
+    // map: delta-ties
+    return std::numeric_limits<Code>::digits + std::countl_zero(static_cast<std::uint32_t>(i ^ j));
+}
+
 /// Kernel over internal nodes (n codes have n - 1): finds the range of a node and its split, and links
 /// the node with its children. The boxes are set by the refit.
 template <class Code>
@@ -59,16 +72,9 @@ struct BuildRadixTree {
     }
 
 private:
-    /// Length of the longest common prefix of keys i and j; -1 if there is no key j.
     [[nodiscard]] HD int delta(std::int32_t i, std::int32_t j) const
     {
-        if (j < 0 || j >= static_cast<std::int32_t>(codes.size())) return -1;
-        const Code a = codes[static_cast<std::uint32_t>(i)];
-        const Code b = codes[static_cast<std::uint32_t>(j)];
-        if (a != b) return std::countl_zero(static_cast<Code>(a ^ b)); // map: delta
-        // Equal codes: their indices decide, below every bit of the code [Karras 2012, sec. 4].
-        // map: delta-ties
-        return std::numeric_limits<Code>::digits + std::countl_zero(static_cast<std::uint32_t>(i ^ j));
+        return common_prefix(codes, i, j);
     }
 
     /// The child next to the split: the leaf or the internal node with number `at_split`.

@@ -137,25 +137,28 @@ private:
         executor(triangle_count_, BoundTriangles{given.all(), boxes.first(triangle_count_)});
         executor(sphere_count, BoundSpheres{spheres_.all(), boxes.all().subspan(triangle_count_)});
 
-        Lbvh<Code> tree(memory, executor, count);
-        tree.build_links(executor, boxes.all());
+        MortonOrder<Code> order(memory, executor, count);
+        order.build(executor, boxes.all());
         const std::vector<Aabb> on_host = boxes.read(count);
-        throw_if_rejected(tree.first_rejected(), on_host);
+        throw_if_rejected(order.first_rejected(), on_host);
         Aabb bounds = empty_aabb();
         for (const Aabb& box : on_host) bounds = unite(bounds, box);
         if (count > 0) diagonal_ = glm::length(bounds.upper - bounds.lower);
         if (builder_ == TreeBuilder::hploc30 || builder_ == TreeBuilder::hploc63) {
             Hploc clustered(memory, count);
-            clustered.build(executor, boxes.all(), tree);
-            WideTree wide(memory, executor, std::as_const(clustered).nodes(), clustered.leaf_links(),
-                          tree.primitives(), given.all());
+            clustered.build(executor, boxes.all(), order);
+            WideTree wide(memory, executor, clustered.nodes(), clustered.divisions(), order.primitives(),
+                          given.all());
             if (wide.levels() <= deepest_tree) return wide;
             // The height of the radix tree is bounded, that of this one is not (hploc.h).
             builder_ = builder_ == TreeBuilder::hploc30 ? TreeBuilder::morton30 : TreeBuilder::morton63;
         }
-        tree.refit(executor, boxes.all());
-        return {memory,     executor, std::as_const(tree).nodes(), tree.leaf_links(), tree.primitives(),
-                given.all()};
+        RadixTree tree(memory, count);
+        tree.build(executor, order.codes());
+        tree.refit(executor, boxes.all(), order.primitives());
+        const Divisions divisions(memory, executor, tree.nodes(), tree.leaf_links());
+        return {memory,          executor,           std::as_const(tree).nodes(),
+                divisions.all(), order.primitives(), given.all()};
     }
 
     std::uint32_t triangle_count_;

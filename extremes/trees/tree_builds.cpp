@@ -48,7 +48,7 @@ JudgedTree judged_fast(std::span<const fast::Aabb> boxes, bool clustered)
     fast::throw_if_rejected(sorted.first_rejected(), boxes);
     BinaryTree tree{std::as_const(sorted).nodes(), sorted.leaf_links(), sorted.primitives(), boxes};
     if (clustered) {
-        merged->build(executor, boxes, sorted);
+        merged->build(executor, boxes, sorted.order());
         tree.nodes = std::as_const(*merged).nodes();
         tree.leaf_links = merged->leaf_links();
     }

@@ -11,6 +11,7 @@
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/hploc.h"
+#include "cuda/trees/lbvh.h"
 #include "cuda/trees/sah_cost.h"
 #include "cuda/trees/scene_geometry.h"
 #include "cuda/trees/surfaces.h"
@@ -37,15 +38,16 @@ void build(benchmark::State& state, const scenes::Scene& scene, unsigned threads
     const fast::Buffer<fast::Triangle> triangles(memory, fast::triangles_of(scene));
     const fast::Buffer<fast::Aabb> boxes(memory, fast::boxes_of(scene));
     fast::ThreadedExecutor executor(threads);
-    fast::Lbvh<Code> tree(memory, executor, n);
+    fast::Lbvh<Code> tree(memory, executor, cluster ? 0 : n);
+    fast::MortonOrder<Code> order(memory, executor, cluster ? n : 0);
     fast::Hploc clustered(memory, cluster ? n : 0);
     const auto build_once = [&] {
         if (!cluster) return tree.build(executor, boxes.all());
-        tree.build_links(executor, boxes.all());
-        clustered.build(executor, boxes.all(), tree);
+        order.build(executor, boxes.all());
+        clustered.build(executor, boxes.all(), order);
         if (built == Built::clustered) return;
-        const fast::WideTree wide(memory, executor, std::as_const(clustered).nodes(),
-                                  clustered.leaf_links(), tree.primitives(), triangles.all());
+        const fast::WideTree wide(memory, executor, clustered.nodes(), clustered.divisions(),
+                                  order.primitives(), triangles.all());
         benchmark::DoNotOptimize(wide.levels());
     };
     build_once(); // touches the memory, which the system clears at the first access
@@ -72,12 +74,13 @@ public:
         fast::SerialExecutor executor;
         const std::vector<fast::Aabb> boxes = fast::boxes_of(scene);
         tree_.build(executor, boxes);
-        clustered_.build(executor, boxes, tree_);
+        clustered_.build(executor, boxes, tree_.order());
         executor(count_, fast_trees_test::OrderTriangles{triangles_, tree_.primitives(), ordered_});
+        const fast::Divisions divisions(memory_, executor, tree_.nodes(), tree_.leaf_links());
         for (const bool clustered : {false, true})
             wide_.emplace_back(memory_, executor, narrow(clustered).nodes,
-                               clustered ? clustered_.leaf_links() : tree_.leaf_links(),
-                               tree_.primitives(), triangles_);
+                               clustered ? clustered_.divisions() : divisions.all(), tree_.primitives(),
+                               triangles_);
     }
     [[nodiscard]] fast_trees_test::TreeView narrow(bool clustered) const
     {

@@ -4,6 +4,7 @@
 
 #include "cuda/launch/device_lbvh.h"
 #include "cuda/parallel/threaded_executor.h"
+#include "cuda/trees/lbvh.h"
 #include "cuda/trees/sah_cost.h"
 #include "ref/trees/bvh.h"
 #include "ref/trees/is_valid_tree.h"
@@ -18,8 +19,11 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -36,7 +40,7 @@ Built cluster(E& executor, std::span<const fast::Aabb> boxes)
 {
     fast::HostMemory memory;
     const auto n = static_cast<std::uint32_t>(boxes.size());
-    fast::Lbvh<std::uint64_t> sorted(memory, executor, n);
+    fast::MortonOrder<std::uint64_t> sorted(memory, executor, n);
     sorted.build(executor, boxes);
     fast::Hploc tree(memory, n);
     tree.build(executor, boxes, sorted);
@@ -104,6 +108,100 @@ TEST(Hploc, IsAValidTreeForEveryKindAndSize)
         }
 }
 
+/// The tree by its definition: the clusters of a node of the radix tree are those of both children,
+/// merged in rounds until there are few enough.
+class Definition {
+public:
+    explicit Definition(std::span<const fast::Aabb> boxes)
+        : boxes_(boxes), order_(memory_, executor_, static_cast<std::uint32_t>(boxes.size())),
+          radix_(memory_, static_cast<std::uint32_t>(boxes.size()))
+    {
+        order_.build(executor_, boxes);
+        radix_.build(executor_, order_.codes());
+        clusters_ = clusters_of(boxes.size() == 1 ? fast::leaf_bit : 0);
+        while (clusters_.size() > 1) merge_nearest(clusters_);
+    }
+    /// The primitives below each node: a list for every node.
+    [[nodiscard]] std::vector<std::vector<std::uint32_t>> sets() const { return sets_; }
+
+private:
+    struct Members {
+        fast::Cluster cluster;
+        std::vector<std::uint32_t> primitives;
+    };
+
+    std::vector<Members> clusters_of(std::uint32_t child)
+    {
+        if (fast::is_leaf(child)) {
+            const std::uint32_t primitive = order_.primitives()[child & ~fast::leaf_bit];
+            return {{{boxes_[primitive], 0, 0, 0}, {primitive}}};
+        }
+        std::vector<Members> all = clusters_of(std::as_const(radix_).nodes()[child].children[0]);
+        for (Members& each : clusters_of(std::as_const(radix_).nodes()[child].children[1]))
+            all.push_back(std::move(each));
+        while (all.size() > fast::most_handed_on) merge_nearest(all);
+        return all;
+    }
+    void merge_nearest(std::vector<Members>& all)
+    {
+        std::vector<fast::Cluster> list;
+        for (const Members& each : all) list.push_back(each.cluster);
+        std::vector<Members> kept;
+        for (std::uint32_t i = 0; i < all.size(); ++i) {
+            const std::uint32_t j = nearest_cluster(list, i);
+            const bool mutual = nearest_cluster(list, j) == i;
+            if (mutual && j < i) continue;
+            kept.push_back(all[i]);
+            if (!mutual) continue;
+            kept.back().cluster.box = unite(list[i].box, list[j].box);
+            auto& primitives = kept.back().primitives;
+            primitives.insert(primitives.end(), all[j].primitives.begin(), all[j].primitives.end());
+            std::ranges::sort(primitives);
+            sets_.push_back(primitives);
+        }
+        all = std::move(kept);
+    }
+
+    std::span<const fast::Aabb> boxes_;
+    fast::HostMemory memory_;
+    fast::SerialExecutor executor_;
+    fast::MortonOrder<std::uint64_t> order_;
+    fast::RadixTree radix_;
+    std::vector<Members> clusters_;
+    std::vector<std::vector<std::uint32_t>> sets_;
+};
+
+/// The primitives below each internal node.
+std::vector<std::vector<std::uint32_t>> sets_of(const Built& built)
+{
+    std::vector<std::vector<std::uint32_t>> sets;
+    const auto below = [&](auto&& self, std::uint32_t child) -> std::vector<std::uint32_t> {
+        if (fast::is_leaf(child)) return {built.primitives[child & ~fast::leaf_bit]};
+        std::vector<std::uint32_t> all = self(self, built.nodes[child].children[0]);
+        const std::vector<std::uint32_t> right = self(self, built.nodes[child].children[1]);
+        all.insert(all.end(), right.begin(), right.end());
+        std::ranges::sort(all);
+        sets.push_back(all);
+        return all;
+    };
+    if (!built.nodes.empty()) below(below, 0);
+    return sets;
+}
+
+RC_GTEST_PROP(Hploc, IsTheTreeOfItsDefinition, ())
+{
+    Random random(*rc::gen::arbitrary<std::uint64_t>());
+    const auto kind = static_cast<Kind>(*rc::gen::inRange(0, trees_test::kinds));
+    const auto boxes = fast_trees_test::rounded(
+        trees_test::boxes(kind, *rc::gen::inRange<std::size_t>(1, 300), random));
+    fast::SerialExecutor serial;
+    auto expected = Definition(boxes).sets();
+    auto sets = sets_of(cluster(serial, boxes));
+    std::ranges::sort(expected);
+    std::ranges::sort(sets);
+    RC_ASSERT(sets == expected);
+}
+
 TEST(Hploc, IsTheSameByThreadsAndValidAtSizesAroundPowersOfTwo)
 {
     Random random(2);
@@ -140,7 +238,7 @@ TEST(Hploc, SaysHowHighItIs) // nested boxes: each adds a level
             boxes.push_back({-corner, corner});
         }
         const auto count = static_cast<std::uint32_t>(n);
-        fast::Lbvh<std::uint32_t> sorted(memory, serial, count);
+        fast::MortonOrder<std::uint32_t> sorted(memory, serial, count);
         sorted.build(serial, boxes);
         fast::Hploc tree(memory, count);
         tree.build(serial, boxes, sorted);

@@ -37,8 +37,8 @@ struct Narrow {
     template <fast::Executor E>
     fast::WideTree widened(E& by)
     {
-        return {memory,   by, std::as_const(tree).nodes(), tree.leaf_links(), tree.primitives(),
-                triangles};
+        const fast::Divisions divisions(memory, by, tree.nodes(), tree.leaf_links());
+        return {memory, by, std::as_const(tree).nodes(), divisions.all(), tree.primitives(), triangles};
     }
     fast::HostMemory memory;
     fast::SerialExecutor executor;

@@ -8,7 +8,11 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <tuple>
 #include <vector>
 
 namespace {
@@ -38,21 +42,22 @@ std::vector<Cluster> random_list(std::size_t count, Random& random)
     return list;
 }
 
-/// nearest_cluster by its definition.
+/// nearest_cluster by its definition: of all pairs with cluster i, the first.
 std::uint32_t expected_nearest(const std::vector<Cluster>& list, std::uint32_t i)
 {
-    if ((i ^ 1) < list.size() && list[i].box.lower == list[i ^ 1].box.lower &&
-        list[i].box.upper == list[i ^ 1].box.upper)
-        return i ^ 1;
-    std::uint32_t best = most_in_list;
-    float smallest = std::numeric_limits<float>::infinity();
+    using Order = std::tuple<float, std::uint32_t, bool, std::uint32_t>;
+    std::optional<Order> first;
+    std::uint32_t nearest = (i ^ 1) < list.size() ? i ^ 1 : i - 1;
     for (std::uint32_t j = 0; j < list.size(); ++j) {
-        if (j == i || (j > i ? j - i : i - j) > fast::search_radius) continue;
-        const float area = half_area(unite(list[i].box, list[j].box));
-        if (best == most_in_list || area < smallest) best = j;
-        if (area < smallest) smallest = area;
+        const auto [lower, upper] = std::minmax(i, j);
+        const float area = half_area(unite(list[lower].box, list[upper].box));
+        if (j == i || upper - lower > fast::search_radius || !std::isfinite(area)) continue;
+        const Order order{area, upper - lower, lower % 2 == 1, lower};
+        if (first && *first < order) continue;
+        first = order;
+        nearest = j;
     }
-    return best;
+    return nearest;
 }
 
 RC_GTEST_PROP(NearestClusters, OneByOneAndAtOnceAreThoseOfTheDefinition, ())
@@ -68,23 +73,46 @@ RC_GTEST_PROP(NearestClusters, OneByOneAndAtOnceAreThoseOfTheDefinition, ())
     }
 }
 
-TEST(NearestClusters, OfEqualAreasTheFirstIsNearest)
+std::vector<std::uint32_t> all_nearest(const std::vector<Cluster>& list)
 {
-    std::vector<Cluster> list(5);
-    const float at[] = {1, 3, 2, 3, 1};
-    for (std::uint32_t i = 0; i < 5; ++i) list[i].box = {Vec3(at[i], 0, 0), Vec3(at[i] + 1, 1, 1)};
     const fast::NearestAtOnce<most_in_list> nearest(list);
-    EXPECT_EQ(nearest[2], 0u); // all four others have the same area with it
-    EXPECT_EQ(nearest[0], 4u); // equal boxes, but not of a pair: no area is smaller
-    EXPECT_EQ(nearest[1], 3u);
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < list.size(); ++i) result.push_back(nearest[i]);
+    return result;
 }
 
-TEST(NearestClusters, OfEqualBoxesInPairsThePairIsNearest)
+/// Boxes of the same size, at these places along an axis.
+std::vector<Cluster> in_a_row(std::initializer_list<float> places)
 {
-    const std::vector<Cluster> list(7, Cluster{{Vec3(0), Vec3(1)}, 0, 0, 0});
-    const fast::NearestAtOnce<most_in_list> nearest(list);
-    for (std::uint32_t i = 0; i < 6; ++i) EXPECT_EQ(nearest[i], i ^ 1);
-    EXPECT_EQ(nearest[6], 0u); // without a partner
+    std::vector<Cluster> list;
+    for (const float x : places) list.push_back({{Vec3(x, 0, 0), Vec3(x + 1, 1, 1)}, 0, 0, 0});
+    return list;
+}
+
+TEST(NearestClusters, OfEqualAreasTheOneNearestInTheListIsNearest)
+{
+    // Cluster 2 has the same area with all others, and the pair (2, 3) begins with an even number.
+    EXPECT_EQ(all_nearest(in_a_row({1, 3, 2, 3, 1}))[2], 3u);
+    // At the same distance neither pair begins with one: the first.
+    EXPECT_EQ(all_nearest(in_a_row({9, 1, 5, 2, 5, 3}))[3], 1u);
+    EXPECT_EQ(all_nearest(in_a_row({1, 5, 2, 5, 3}))[2], 0u);
+}
+
+TEST(NearestClusters, EqualDistancesInSpaceGivePairs)
+{
+    EXPECT_EQ(all_nearest(in_a_row({1, 2, 3, 4, 5, 6})), (std::vector<std::uint32_t>{1, 0, 3, 2, 5, 4}));
+}
+
+TEST(NearestClusters, EqualBoxesGivePairs)
+{
+    EXPECT_EQ(all_nearest(in_a_row({1, 1, 1, 1, 1})), (std::vector<std::uint32_t>{1, 0, 3, 2, 3}));
+}
+
+TEST(NearestClusters, WithoutAFiniteAreaPartnersAreNearest)
+{
+    std::vector<Cluster> list = in_a_row({1, 1, 1, 1, 1});
+    for (Cluster& cluster : list) cluster.box.upper = Vec3(3e38f);
+    EXPECT_EQ(all_nearest(list), (std::vector<std::uint32_t>{1, 0, 3, 2, 3}));
 }
 
 } // namespace

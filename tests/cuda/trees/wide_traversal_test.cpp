@@ -182,7 +182,8 @@ TEST(WideTree, TheDeepestOneFitsTheStack)
         for (Vec3& vertex : triangle.vertices) vertex = Vec3(random.in_cube());
     fast::HostMemory memory;
     fast::SerialExecutor executor;
-    const WideTree tree(memory, executor, made.nodes, made.leaf_links, primitives, triangles);
+    const fast::Divisions divisions(memory, executor, made.nodes, made.leaf_links);
+    const WideTree tree(memory, executor, made.nodes, divisions.all(), primitives, triangles);
     ASSERT_EQ(tree.levels(), fast::deepest_tree);
     for (int i = 0; i < 100; ++i) {
         const fast::Ray ray{Vec3(0.01 * random.in_cube()), std::numeric_limits<float>::infinity(),

@@ -123,11 +123,12 @@ std::array<WideTree, 2> widened_by_codes(Narrow& narrow)
     fast::Lbvh<Code> sorted(narrow.memory, narrow.executor, count);
     sorted.build(narrow.executor, narrow.boxes);
     fast::Hploc clustered(narrow.memory, count);
-    WideTree radix{narrow.memory,       narrow.executor,     std::as_const(sorted).nodes(),
-                   sorted.leaf_links(), sorted.primitives(), narrow.triangles};
-    clustered.build(narrow.executor, narrow.boxes, sorted);
-    return {std::move(radix), WideTree{narrow.memory, narrow.executor, std::as_const(clustered).nodes(),
-                                       clustered.leaf_links(), sorted.primitives(), narrow.triangles}};
+    const fast::Divisions divisions(narrow.memory, narrow.executor, sorted.nodes(), sorted.leaf_links());
+    WideTree radix{narrow.memory,   narrow.executor,     std::as_const(sorted).nodes(),
+                   divisions.all(), sorted.primitives(), narrow.triangles};
+    clustered.build(narrow.executor, narrow.boxes, sorted.order());
+    return {std::move(radix), WideTree{narrow.memory, narrow.executor, clustered.nodes(),
+                                       clustered.divisions(), sorted.primitives(), narrow.triangles}};
 }
 
 RC_GTEST_PROP(SurfaceTree, IsTheWideTreeOfItsBuilder, ())
@@ -255,6 +256,25 @@ RC_GTEST_PROP(WideTree, HasTheLeastSumOfAreasOfAllCollapsedTrees, ())
     const double least = AllCollapses(narrow).least_cost(0);
     RC_ASSERT(cost <= least * (1 + 180 * 0x1p-24));
     RC_ASSERT(cost >= least * (1 - 1e-12));
+}
+
+// Triangles without area on a line: whatever the nodes are, the sum of areas is 0. Then the fewest nodes
+// are best.
+TEST(WideTree, HasFewNodesIfNoBoxHasAnArea)
+{
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < 4096; ++i) {
+        const auto x = static_cast<float>(i);
+        triangles.push_back({{Vec3(x, 0, 0), Vec3(x + 0.5f, 0, 0), Vec3(x, 0, 0)}});
+    }
+    fast::HostMemory memory;
+    fast::SerialExecutor executor;
+    for (const fast::TreeBuilder builder : fast::tree_builders) {
+        const fast::SurfaceTree surfaces(memory, executor, triangles, {}, builder);
+        const fast::WideTreeView tree = surfaces.view<false>().tree;
+        // Nodes of eight children each are groups / 7. Here the subtrees do not divide evenly.
+        EXPECT_LE(tree.nodes.size(), tree.groups.size() / 5) << name_of(builder);
+    }
 }
 
 } // namespace
