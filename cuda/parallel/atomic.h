@@ -38,16 +38,22 @@ HD inline std::uint32_t arrive(std::uint32_t& counter)
 #endif
 }
 
-/// Adds one to `counter` and returns its previous value, without ordering any other access: every thread
-/// gets a number of its own.
-HD inline std::uint32_t next_number(std::uint32_t& counter)
+/// Adds `count` to `counter` and returns its previous value, without ordering any other access: every
+/// thread gets numbers of its own, the one returned and those that follow it.
+HD inline std::uint32_t next_numbers(std::uint32_t& counter, std::uint32_t count)
 {
 #if defined(__CUDA_ARCH__)
-    return atomicAdd(&counter, 1u);
+    return atomicAdd(&counter, count);
 #else
     if (schedule_point != nullptr) schedule_point();
-    return std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
+    return std::atomic_ref<std::uint32_t>(counter).fetch_add(count, std::memory_order_relaxed);
 #endif
+}
+
+/// One such number.
+HD inline std::uint32_t next_number(std::uint32_t& counter)
+{
+    return next_numbers(counter, 1);
 }
 
 /// Adds `term` to `sum`, without ordering any other access. Sums of floats depend on the order of

@@ -103,16 +103,16 @@ struct FoundNodes {
     std::span<std::uint32_t> group_numbers;
     std::span<std::uint32_t> group_places;
 
-    HD void add_node(std::uint32_t node, std::uint32_t place) const
+    /// Wide node p.
+    HD void put_node(std::uint32_t p, std::uint32_t node, std::uint32_t place) const
     {
-        const std::uint32_t p = next_number(counts[0]);
         numbers[p] = number_of(node);
         order[p] = p;
         places[p] = place;
     }
-    HD void add_group(std::uint32_t child, std::uint32_t place) const
+    /// Group p.
+    HD void put_group(std::uint32_t p, std::uint32_t child, std::uint32_t place) const
     {
-        const std::uint32_t p = next_number(counts[1]);
         group_numbers[p] = number_of(child);
         group_places[p] = place;
     }
@@ -125,11 +125,13 @@ struct FindRoot {
 
     HD void operator()(std::uint32_t /*index*/) const
     {
-        found.counts[0] = found.counts[1] = 0;
-        if (primitives > most_in_group)
-            found.add_node(0, no_node);
+        const bool group = primitives <= most_in_group;
+        found.counts[0] = group ? 0 : 1;
+        found.counts[1] = group ? 1 : 0;
+        if (group)
+            found.put_group(0, primitives == 1 ? leaf_bit : 0, no_node);
         else
-            found.add_group(primitives == 1 ? leaf_bit : 0, no_node);
+            found.put_node(0, 0, no_node);
     }
 };
 
@@ -145,13 +147,25 @@ struct FindWideNodes {
         const std::uint32_t p = first + i;
         const OpenedNode node = opened(nodes, divisions, child_of(found.numbers[p]));
         found.opened[p] = node;
+        std::uint32_t groups = 0;
+        for (int c = 0; c < node.count; ++c) groups += is_group(node, c) ? 1 : 0;
+        std::uint32_t next_group = next_numbers(found.counts[1], groups);
+        std::uint32_t next_node =
+            next_numbers(found.counts[0], static_cast<std::uint32_t>(node.count) - groups);
         for (int c = 0; c < node.count; ++c) {
             const std::uint32_t child = child_at(nodes, node.links[c]);
-            if (is_leaf(child) || divisions[child].is_group())
-                found.add_group(child, place_of(p, c));
+            if (is_group(node, c))
+                found.put_group(next_group++, child, place_of(p, c));
             else
-                found.add_node(child, place_of(p, c));
+                found.put_node(next_node++, child, place_of(p, c));
         }
+    }
+
+private:
+    [[nodiscard]] HD bool is_group(const OpenedNode& node, int c) const
+    {
+        const std::uint32_t child = child_at(nodes, node.links[c]);
+        return is_leaf(child) || divisions[child].is_group();
     }
 };
 
