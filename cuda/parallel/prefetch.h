@@ -19,4 +19,14 @@ HD void prefetch([[maybe_unused]] const T& element)
 #endif
 }
 
+/// The same for an element in one cache line that will be written.
+template <class T>
+HD void prefetch_to_write([[maybe_unused]] T& element)
+{
+#if !defined(__CUDA_ARCH__)
+    static_assert(sizeof(T) <= alignof(T)); // so it lies in one line
+    __builtin_prefetch(&element, 1);
+#endif
+}
+
 } // namespace fast

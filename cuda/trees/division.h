@@ -56,17 +56,18 @@ struct DivisionsView {
     std::span<DivisionCosts> costs;
     std::span<Division> of; // by node
 
-    /// Of node `number`, from those of its children.
-    HD void divide(const Node& node, std::uint32_t number) const
+    /// Of node `number` with this box, from those of its children.
+    HD void divide(std::uint32_t number, std::uint32_t left_child, std::uint32_t right_child,
+                   const Aabb& box) const
     {
-        const std::uint32_t left_leaves = leaves_of_group(node.children[0]);
-        const std::uint32_t right_leaves = leaves_of_group(node.children[1]);
+        const std::uint32_t left_leaves = leaves_of_group(left_child);
+        const std::uint32_t right_leaves = leaves_of_group(right_child);
         if (left_leaves != 0 && right_leaves != 0 && left_leaves + right_leaves <= most_in_group) {
             of[number] = {left_leaves + right_leaves};
             return;
         }
-        const DivisionCosts left = costs_of(node.children[0], left_leaves);
-        const DivisionCosts right = costs_of(node.children[1], right_leaves);
+        const DivisionCosts left = costs_of(left_child, left_leaves);
+        const DivisionCosts right = costs_of(right_child, right_leaves);
         // In lane i - 2: the best k so far, and the cost with it. Where k is not below i, the cost of
         // the right child is read from before its first: infinity.
         constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -82,7 +83,7 @@ struct DivisionsView {
         }
         // An area that overflows may be NaN (0 * infinity): then all divisions are as good. Without any
         // area, the fewest nodes are best.
-        const float area = half_area(unite(node.bounds[0], node.bounds[1]));
+        const float area = half_area(box);
         constexpr float least_area = std::numeric_limits<float>::min();
         const float own = area >= 0 ? (area > least_area ? area : least_area) : infinity;
         const float whole = own + least[most_children - 2]; // C(n, 1)
@@ -102,7 +103,9 @@ struct DivisionsView {
 private:
     [[nodiscard]] HD std::uint32_t leaves_of_group(std::uint32_t child) const
     {
-        return is_leaf(child) ? 1 : of[child].leaves_of_group();
+        // Which children are leaves cannot be predicted: a choice of an address instead of a branch.
+        const Division leaf{1};
+        return (is_leaf(child) ? &leaf : of.data() + child)->leaves_of_group();
     }
     [[nodiscard]] HD DivisionCosts costs_of(std::uint32_t child, std::uint32_t leaves) const
     {
@@ -122,7 +125,8 @@ struct DivideNodes {
             Node& node = nodes[link >> 1];
             if (arrive(node.arrivals) == 0) return;
             node.arrivals = 0;
-            divisions.divide(node, link >> 1);
+            divisions.divide(link >> 1, node.children[0], node.children[1],
+                             unite(node.bounds[0], node.bounds[1]));
         }
     }
 };

@@ -95,6 +95,7 @@ struct MergeClusters {
             list = joined({left.far_end, left.count}, {split + 1, right.count});
             const bool all = range.first == 0 && range.last == last;
             const std::uint32_t most = all ? 1 : most_handed_on;
+            if (list.count > most) expect_merges(list);
             while (list.count > most) list.count = merge_nearest(list);
         }
         name_parent(clusters[list.first].root, no_node);
@@ -125,6 +126,16 @@ private:
         return {left.first, left.count + right.count};
     }
 
+    /// Loads what merged() will write: otherwise writing waits for it.
+    HD void expect_merges(const ClusterList& list) const
+    {
+        for (std::uint32_t i = 1; i < list.count; ++i) {
+            const std::uint32_t name = clusters[list.first + i].slot - 1;
+            prefetch_to_write(nodes[name]);
+            prefetch_to_write(divisions.of[name]);
+        }
+    }
+
     /// Merges every two clusters that are each other's nearest neighbours; returns the number of
     /// clusters left.
     [[nodiscard]] HD std::uint32_t merge_nearest(const ClusterList& list) const
@@ -153,19 +164,15 @@ private:
         nodes[name].arrivals = 0;
         name_parent(left.root, link_to(name, 0));
         name_parent(right.root, link_to(name, 1));
-        divisions.divide(nodes[name], name);
+        const Aabb box = unite(left.box, right.box);
+        divisions.divide(name, left.root, right.root, box);
         const std::uint32_t higher = left.height < right.height ? right.height : left.height;
-        return {unite(left.box, right.box), name, left.slot, higher + 1};
+        return {box, name, left.slot, higher + 1};
     }
 
     HD void name_parent(std::uint32_t child, std::uint32_t link) const
     {
-        // Which children are leaves cannot be predicted: two addresses, and a choice instead of a
-        // branch.
-        const std::uint32_t number = child & ~leaf_bit;
-        std::uint32_t* const of_leaf = leaf_links.data() + number;
-        std::uint32_t* const of_node = &nodes.data()[number].link;
-        *(is_leaf(child) ? of_leaf : of_node) = link;
+        (is_leaf(child) ? leaf_links[child & ~leaf_bit] : nodes[child].link) = link;
     }
 };
 

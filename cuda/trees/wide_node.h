@@ -34,31 +34,24 @@ struct alignas(64) WideNode {
 };
 static_assert(sizeof(WideNode) == 256);
 
-/// Collects the leaves below `child`, at most most_in_group, from left to right. Returns their number.
+/// Collects the leaves below `child`, from left to right. Returns their number, or most_in_group + 1 if
+/// there are more than most_in_group.
 HD inline std::uint32_t leaves_below(std::span<const Node> nodes, std::uint32_t child,
                                      std::uint32_t (&leaves)[most_in_group])
 {
-    if (is_leaf(child)) {
-        leaves[0] = child & ~leaf_bit;
-        return 1;
-    }
-    // Which children are leaves cannot be predicted, so this is no branch: a leaf is written to the list
-    // and taken from the stack, where a node stays and is replaced by its children.
     std::uint32_t stack[most_in_group + 1] = {child}; // each stands for one leaf at least
     std::uint32_t height = 1;
     std::uint32_t count = 0;
-    std::uint32_t list[most_in_group + 1];
     while (height > 0) {
-        const std::uint32_t next = stack[height - 1];
-        const bool leaf = is_leaf(next);
-        const Node& node = nodes[leaf ? child : next];
-        list[count] = next & ~leaf_bit;
-        count += leaf ? 1 : 0;
-        stack[height - 1] = node.children[1];
-        stack[height] = node.children[0];
-        height = leaf ? height - 1 : height + 1;
+        const std::uint32_t next = stack[--height];
+        if (is_leaf(next)) {
+            leaves[count++] = next & ~leaf_bit;
+            continue;
+        }
+        if (count + height + 2 > most_in_group) return most_in_group + 1;
+        stack[height++] = nodes[next].children[1];
+        stack[height++] = nodes[next].children[0];
     }
-    for (std::uint32_t i = 0; i < most_in_group; ++i) leaves[i] = list[i];
     return count;
 }
 
