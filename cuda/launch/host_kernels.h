@@ -1,12 +1,14 @@
 #pragma once
 
 // The kernels for the threads of the host. They are compiled once for every instruction set
-// (instruction_set.h), in host_path.cpp, host_light.cpp and host_bdpt.cpp.
+// (instruction_set.h), in host_path.cpp, host_light.cpp, host_bdpt.cpp and host_surfaces.cpp.
 
 #include "cuda/launch/instruction_set.h"
 #include "cuda/launch/launch_samples.h"
 #include "cuda/parallel/threaded_executor.h"
 
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace fast {
@@ -34,6 +36,20 @@ void launch_samples<Integrator::bdpt>(HostThreads&, Needs, const SceneInMemory&,
 template <>
 void launch_samples<Integrator::light>(HostThreads&, Needs, const SceneInMemory&, const SampleJob&);
 
+/// What a tree of surfaces is built from, and where it goes.
+struct SurfaceJob {
+    Memory& memory;
+    std::span<const Triangle> triangles;
+    std::span<const Sphere> spheres;
+    TreeBuilder builder;
+    std::optional<SurfaceTree>& result;
+};
+
+/// surface_tree on a HostThreads. The tree does not depend on the instructions: for `fastmath` it is
+/// built with the best that round exactly.
+SurfaceTree surface_tree(Memory& memory, HostThreads& executor, std::span<const Triangle> triangles,
+                         std::span<const Sphere> spheres, TreeBuilder builder);
+
 } // namespace fast
 
 // The same, compiled for one instruction set. The names are those of cmake/instruction_sets.cmake.
@@ -45,6 +61,7 @@ void launch_samples<Integrator::light>(HostThreads&, Needs, const SceneInMemory&
                                         const fast::SampleJob&);                                        \
     void plumbline_kernels_##set##_light(fast::HostThreads&, fast::Needs, const fast::SceneInMemory&,   \
                                          const fast::SampleJob&);                                       \
+    void plumbline_kernels_##set##_surfaces(fast::HostThreads&, const fast::SurfaceJob&);               \
     }
 PLUMBLINE_DECLARE_KERNELS(baseline)
 PLUMBLINE_DECLARE_KERNELS(avx2)

@@ -13,7 +13,7 @@ public:
     template <Executor E>
     SceneInMemory(Memory& memory, E& executor, const SceneArrays& arrays, const Camera& camera,
                   TreeBuilder tree = default_tree_builder)
-        : geometry_(memory, executor, arrays.triangles, arrays.spheres, tree),
+        : geometry_(surface_tree(memory, executor, arrays.triangles, arrays.spheres, tree)),
           triangles_(memory, std::span(arrays.triangles)), spheres_(memory, std::span(arrays.spheres)),
           surfaces_(memory, std::span(arrays.surfaces)), materials_(memory, std::span(arrays.materials)),
           emitters_(memory, std::span(arrays.emitters)),

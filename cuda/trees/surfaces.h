@@ -168,4 +168,12 @@ private:
     WideTree tree_;
 };
 
+/// A tree of surfaces; an executor may have a function of its own for it.
+template <Executor E>
+SurfaceTree surface_tree(Memory& memory, E& executor, std::span<const Triangle> triangles,
+                         std::span<const Sphere> spheres, TreeBuilder builder)
+{
+    return {memory, executor, triangles, spheres, builder};
+}
+
 } // namespace fast

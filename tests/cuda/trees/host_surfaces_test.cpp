@@ -1,0 +1,92 @@
+// Trees of surfaces built by the threads of the host, with every set of instructions.
+
+#include "cuda/launch/host_kernels.h"
+#include "tests/cuda/trees/triangles.h"
+#include "tests/ref/trees/boxes.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using fast::HostMemory;
+using fast::HostThreads;
+using fast::SurfaceTree;
+using fast::Triangle;
+using fast::Vec3;
+
+std::vector<Triangle> triangles_anywhere(std::size_t count, trees_test::Random& random)
+{
+    std::vector<Triangle> triangles(count);
+    for (Triangle& triangle : triangles) {
+        const Vec3 at(random.in_cube());
+        for (Vec3& vertex : triangle.vertices) vertex = at + 0.1f * Vec3(random.in_cube());
+    }
+    return triangles;
+}
+
+template <class T>
+bool same_bytes(std::span<const T> a, std::span<const T> b)
+{
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
+/// Whether the parts of nodes that are defined are the same.
+bool same_nodes(std::span<const fast::WideNode> a, std::span<const fast::WideNode> b)
+{
+    if (a.size() != b.size()) return false;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (std::memcmp(a[i].planes, b[i].planes, sizeof a[i].planes) != 0 ||
+            std::memcmp(a[i].children, b[i].children, sizeof a[i].children) != 0)
+            return false;
+    return true;
+}
+
+RC_GTEST_PROP(SurfacesOnHostThreads, AreTheSameWithAllInstructionsAndBuilders, ())
+{
+    trees_test::Random random(*rc::gen::arbitrary<std::uint64_t>());
+    const auto triangles = triangles_anywhere(*rc::gen::inRange<std::size_t>(0, 400), random);
+    HostMemory memory;
+    fast::SerialExecutor serial;
+    HostThreads threads(2, 1);
+    for (const fast::TreeBuilder builder : fast::tree_builders) {
+        const SurfaceTree expected(memory, serial, triangles, {}, builder);
+        const fast::WideTreeView tree = expected.view<false>().tree;
+        for (const fast::InstructionSet set : fast::instruction_sets()) {
+            threads.instructions = set;
+            const SurfaceTree built = surface_tree(memory, threads, triangles, {}, builder);
+            RC_ASSERT(same_nodes(built.view<false>().tree.nodes, tree.nodes));
+            RC_ASSERT(same_bytes(built.view<false>().tree.groups, tree.groups));
+            RC_ASSERT(built.builder() == expected.builder());
+            RC_ASSERT(built.diagonal() == expected.diagonal());
+        }
+    }
+}
+
+TEST(SurfacesOnHostThreads, NameTheFirstPrimitiveThatIsNotLegalWithAllInstructions)
+{
+    trees_test::Random random(1);
+    auto triangles = triangles_anywhere(40, random);
+    triangles[7].vertices[1].y = std::numeric_limits<float>::quiet_NaN();
+    HostMemory memory;
+    HostThreads threads(2, 1);
+    for (const fast::InstructionSet set : fast::instruction_sets()) {
+        threads.instructions = set;
+        try {
+            (void)surface_tree(memory, threads, triangles, {}, fast::default_tree_builder);
+            ADD_FAILURE() << "no error with " << name_of(set);
+        } catch (const std::invalid_argument& error) {
+            EXPECT_NE(std::string(error.what()).find("primitive 7"), std::string::npos) << error.what();
+        }
+    }
+}
+
+} // namespace
