@@ -35,7 +35,7 @@ public:
     template <Executor E>
     void sort(E& executor, std::uint32_t count, std::uint32_t end)
     {
-        const int bits = std::bit_width(end - 1);
+        const auto bits = static_cast<int>(std::bit_width(end - 1));
         Buffer<std::uint32_t> scratch(*memory_,
                                       sort_scratch<std::uint32_t, std::uint32_t>(executor, count, bits));
         Alternating<std::uint32_t> keys{keys_[0].first(count), keys_[1].first(count)};
