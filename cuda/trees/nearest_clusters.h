@@ -81,6 +81,8 @@ private:
 /// once, for both of its clusters.
 template <std::uint32_t most>
 class NearestAtOnce {
+    static_assert(most % lane_count == 0 && search_radius == lane_count);
+
 public:
     explicit NearestAtOnce(std::span<const Cluster> list)
         : count_(static_cast<std::uint32_t>(list.size()))

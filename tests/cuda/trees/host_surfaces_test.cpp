@@ -1,16 +1,14 @@
 // Trees of surfaces built by the threads of the host, with every set of instructions.
 
 #include "cuda/launch/host_kernels.h"
-#include "tests/cuda/trees/triangles.h"
+#include "tests/cuda/trees/same_trees.h"
 #include "tests/ref/trees/boxes.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <cstring>
 #include <limits>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -33,23 +31,6 @@ std::vector<Triangle> triangles_anywhere(std::size_t count, trees_test::Random& 
     return triangles;
 }
 
-template <class T>
-bool same_bytes(std::span<const T> a, std::span<const T> b)
-{
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
-}
-
-/// Whether the parts of nodes that are defined are the same.
-bool same_nodes(std::span<const fast::WideNode> a, std::span<const fast::WideNode> b)
-{
-    if (a.size() != b.size()) return false;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        if (std::memcmp(a[i].planes, b[i].planes, sizeof a[i].planes) != 0 ||
-            std::memcmp(a[i].children, b[i].children, sizeof a[i].children) != 0)
-            return false;
-    return true;
-}
-
 RC_GTEST_PROP(SurfacesOnHostThreads, AreTheSameWithAllInstructionsAndBuilders, ())
 {
     trees_test::Random random(*rc::gen::arbitrary<std::uint64_t>());
@@ -63,8 +44,8 @@ RC_GTEST_PROP(SurfacesOnHostThreads, AreTheSameWithAllInstructionsAndBuilders, (
         for (const fast::InstructionSet set : fast::instruction_sets()) {
             threads.instructions = set;
             const SurfaceTree built = surface_tree(memory, threads, triangles, {}, builder);
-            RC_ASSERT(same_nodes(built.view<false>().tree.nodes, tree.nodes));
-            RC_ASSERT(same_bytes(built.view<false>().tree.groups, tree.groups));
+            RC_ASSERT(fast_trees_test::same_nodes(built.view<false>().tree.nodes, tree.nodes));
+            RC_ASSERT(fast_trees_test::same_groups(built.view<false>().tree.groups, tree.groups));
             RC_ASSERT(built.builder() == expected.builder());
             RC_ASSERT(built.diagonal() == expected.diagonal());
         }

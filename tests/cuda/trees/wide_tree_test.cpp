@@ -4,6 +4,7 @@
 
 #include "tests/cuda/parallel/interleaved_executor.h"
 #include "tests/cuda/trees/narrow_trees.h"
+#include "tests/cuda/trees/same_trees.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -27,6 +28,8 @@ using fast::Vec3;
 using fast::WideNode;
 using fast::WideTree;
 using fast_trees_test::Narrow;
+using fast_trees_test::same_groups;
+using fast_trees_test::same_nodes;
 using trees_test::Random;
 
 /// Counts how often each primitive is in a group, and how many nodes and groups there are.
@@ -76,21 +79,6 @@ Aabb check_below(const fast::WideTreeView& tree, const Narrow& narrow, std::uint
     RC_ASSERT(below > fast::most_in_group); // otherwise it would be a group
     primitives += below;
     return all;
-}
-
-bool same_nodes(std::span<const WideNode> a, std::span<const WideNode> b)
-{
-    if (a.size() != b.size()) return false;
-    for (std::size_t i = 0; i < a.size(); ++i) // the elements after them are undefined
-        if (std::memcmp(a[i].planes, b[i].planes, sizeof a[i].planes) != 0 ||
-            std::memcmp(a[i].children, b[i].children, sizeof a[i].children) != 0)
-            return false;
-    return true;
-}
-
-bool same_groups(std::span<const TriangleGroup> a, std::span<const TriangleGroup> b)
-{
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
 /// Checks that the tree over the triangles of `narrow` is valid.
