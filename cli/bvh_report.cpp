@@ -86,8 +86,8 @@ void print_build(std::ostream& out, const StagedBuild& build)
     out << ", " << std::setprecision(0) << build.bytes_per_primitive << " bytes per primitive\n";
     if (!build.host_trees) return;
     out << std::setprecision(2) << "          SAH cost " << build.host_trees->sah_cost
-        << "; clustered (hploc) in " << build.host_trees->hploc_ms << " ms more "
-        << build.host_trees->hploc_sah_cost << '\n';
+        << "; by clustering (hploc), " << build.host_trees->hploc_ms
+        << " ms in place of tree and refit: " << build.host_trees->hploc_sah_cost << '\n';
 }
 
 } // namespace

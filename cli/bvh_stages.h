@@ -15,14 +15,14 @@ namespace cli {
 struct MeasuredStage {
     std::string name;
     double ms;                                  // median of the time that passed
-    double bytes;                               // that it must move (cuda/trees/traffic.h)
+    double bytes;                               // that it must move (cuda/trees/bytes_moved.h)
     std::optional<double> percent_of_bandwidth; // of the memory; none where that is not known
 };
 
 /// The trees of one builder on the host.
 struct MeasuredHostTrees {
     double sah_cost;
-    double hploc_ms; // median of the time that clustering took (cuda/trees/hploc.h)
+    double hploc_ms; // median of the time of clustering (cuda/trees/hploc.h), without the sort
     double hploc_sah_cost;
 };
 

@@ -3,11 +3,11 @@
 //
 //   bench_fast [--benchmark_...]
 //
-// Builds start from boxes, and use memory that an earlier build has used; "hploc" is morton63, with
-// clustering instead of the refit; "hploc-wide" also makes the wide tree, in new memory: what rays need.
-// With more than one thread the elapsed time is measured, otherwise the CPU time. SAH costs: C_trav =
-// C_isect = 1. For rays also: nodes and leaves (groups of a wide tree) per ray, and nodes if no hit
-// stopped the traversal; and the nodes and groups of a wide tree.
+// Builds start from boxes, and use memory that an earlier build has used; "hploc" sorts as morton63, and
+// then clusters instead of building a radix tree and refitting it; "hploc-wide" also makes the wide
+// tree, in new memory: what rays need. With more than one thread the elapsed time is measured, otherwise
+// the CPU time. SAH costs: C_trav = C_isect = 1. For rays also: nodes and leaves (groups of a wide tree)
+// per ray, and nodes if no hit stopped the traversal; and the nodes and groups of a wide tree.
 
 #include "cuda/parallel/threaded_executor.h"
 #include "cuda/trees/hploc.h"
