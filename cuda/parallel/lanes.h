@@ -239,12 +239,6 @@ HD inline void store_lanes(const Lanes& lanes, float* to)
     std::memcpy(to, &lanes, sizeof lanes);
 }
 
-/// Where a == b; not where one of them is NaN.
-HD inline LaneBits equal(const Lanes& a, const Lanes& b)
-{
-    return not_above(a, b) & not_above(b, a);
-}
-
 /// Where a >= 0; not where a is NaN.
 HD inline LaneBits non_negative(const Lanes& a)
 {

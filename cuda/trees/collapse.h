@@ -42,15 +42,15 @@ HD inline OpenedNode opened(std::span<const Node> nodes, std::span<const Divisio
             node.links[node.count] = link;
             parts[node.count++] = most_parts;
         }
-        HD void add_children(std::uint32_t parent, int to_left, int to_right)
+        HD void add_children(std::uint32_t parent, const Division& division, int into)
         {
+            const int to_left = division.to_left(into);
             add(link_to(parent, 0), to_left);
-            add(link_to(parent, 1), to_right);
+            add(link_to(parent, 1), into - to_left);
         }
     };
     Level level{};
-    const int to_left = divisions[node].to_left(most_children);
-    level.add_children(node, to_left, most_children - to_left);
+    level.add_children(node, divisions[node], most_children);
     for (bool divided = true; divided;) {
         divided = false;
         Level next{};
@@ -63,8 +63,7 @@ HD inline OpenedNode opened(std::span<const Node> nodes, std::span<const Divisio
                 continue;
             }
             prefetch(nodes[child]);
-            const int left = divisions[child].to_left(parts);
-            next.add_children(child, left, parts - left);
+            next.add_children(child, divisions[child], parts);
             divided = true;
         }
         level = next;

@@ -5,8 +5,8 @@
 // they can be queued at once, or captured in a graph.
 
 #include "cuda/parallel/buffer.h"
-#include "cuda/parallel/radix_sort.h"
 #include "cuda/parallel/reduce.h"
+#include "cuda/parallel/sorted_pairs.h"
 #include "cuda/trees/check_input.h"
 #include "cuda/trees/morton.h"
 #include "cuda/trees/node.h"
@@ -33,13 +33,10 @@ public:
     /// `executor` access. Throws OutOfMemory, and std::invalid_argument for a larger capacity.
     template <Executor E>
     MortonOrder(Memory& memory, const E& executor, std::uint32_t capacity)
-        : codes_{Buffer<Code>(memory, checked(capacity)), Buffer<Code>(memory, capacity)},
-          primitives_{Buffer<std::uint32_t>(memory, capacity), Buffer<std::uint32_t>(memory, capacity)},
-          centroid_bounds_(memory, 1),
+        : pairs_(memory, executor, checked(capacity), code_bits<Code>), centroid_bounds_(memory, 1),
           centroid_bounds_scratch_(memory,
                                    reduce_scratch(executor, capacity, BoundCentroid{},
-                                                  UniteCentroidBounds{}, empty_centroid_bounds())),
-          sort_scratch_(memory, sort_scratch<Code, std::uint32_t>(executor, capacity, code_bits<Code>))
+                                                  UniteCentroidBounds{}, empty_centroid_bounds()))
     {}
 
     /// Queues the sort of `boxes`, which must not change until it is done. A second one may be queued
@@ -51,25 +48,22 @@ public:
     template <Executor E, std::invocable<Stage> Finished>
     void build(E& executor, std::span<const Aabb> boxes, const Finished& finished)
     {
-        if (boxes.size() > codes_[0].size())
+        if (boxes.size() > pairs_.capacity())
             throw std::length_error("a tree over " + std::to_string(boxes.size()) +
                                     " primitives does not fit where there is room for " +
-                                    std::to_string(codes_[0].size()));
+                                    std::to_string(pairs_.capacity()));
         const auto count = static_cast<std::uint32_t>(boxes.size());
 
         map_reduce(executor, count, BoundCentroid{boxes}, UniteCentroidBounds{}, empty_centroid_bounds(),
                    centroid_bounds_scratch_.all(), centroid_bounds_.all());
         finished(Stage::bounds);
 
-        Alternating<Code> codes{codes_[0].first(count), codes_[1].first(count)};
-        Alternating<std::uint32_t> order{primitives_[0].first(count), primitives_[1].first(count)};
         executor(count,
-                 ComputeMortonCodes<Code>{boxes, centroid_bounds_.all(), codes.current, order.current});
+                 ComputeMortonCodes<Code>{boxes, centroid_bounds_.all(), pairs_.keys().first(count),
+                                          pairs_.values().first(count)});
         finished(Stage::codes);
 
-        radix_sort(executor, codes, order, code_bits<Code>, sort_scratch_.all());
-        sorted_codes_ = codes.current;
-        sorted_primitives_ = order.current;
+        pairs_.sort(executor, count);
         finished(Stage::sort);
     }
     template <Executor E>
@@ -79,8 +73,11 @@ public:
     }
 
     // Results of the last build that was queued, in the memory of its kernels; valid once it is done.
-    [[nodiscard]] std::span<const std::uint32_t> primitives() const { return sorted_primitives_; }
-    [[nodiscard]] std::span<const Code> codes() const { return sorted_codes_; } // in the order of leaves
+    [[nodiscard]] std::span<const std::uint32_t> primitives() const { return pairs_.sorted_values(); }
+    [[nodiscard]] std::span<const Code> codes() const
+    {
+        return pairs_.sorted_keys();
+    } // in the order of leaves
 
     /// Waits for the build. The lowest number of a primitive whose box is not legal, or no_primitive.
     [[nodiscard]] std::uint32_t first_rejected() const
@@ -97,13 +94,9 @@ private:
         return capacity;
     }
 
-    std::array<Buffer<Code>, 2> codes_;
-    std::array<Buffer<std::uint32_t>, 2> primitives_;
-    std::span<const Code> sorted_codes_;
-    std::span<const std::uint32_t> sorted_primitives_;
+    SortedPairs<Code> pairs_; // codes with primitives
     Buffer<CentroidBounds> centroid_bounds_;
     Buffer<CentroidBounds> centroid_bounds_scratch_;
-    Buffer<std::uint32_t> sort_scratch_;
 };
 
 } // namespace fast

@@ -5,10 +5,9 @@
 
 #include "cuda/parallel/buffer.h"
 #include "cuda/parallel/executor.h"
-#include "cuda/parallel/radix_sort.h"
+#include "cuda/parallel/sorted_pairs.h"
 #include "cuda/trees/collapse.h"
 
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -20,43 +19,6 @@ struct WideTreeView {
     std::span<const WideNode> nodes;
     std::span<const TriangleGroup> groups;
     Aabb bounds; // of the root
-};
-
-/// Pairs of keys and values, and the memory to sort them.
-class SortedPairs {
-public:
-    /// For up to `capacity` pairs. Throws OutOfMemory.
-    SortedPairs(Memory& memory, std::size_t capacity)
-        : memory_(&memory), keys_{Buffer<std::uint32_t>(memory, capacity),
-                                  Buffer<std::uint32_t>(memory, capacity)},
-          values_{Buffer<std::uint32_t>(memory, capacity), Buffer<std::uint32_t>(memory, capacity)}
-    {}
-    /// Sorts the first `count` pairs by their keys, which are below `end`.
-    template <Executor E>
-    void sort(E& executor, std::uint32_t count, std::uint32_t end)
-    {
-        const auto bits = static_cast<int>(std::bit_width(end - 1));
-        Buffer<std::uint32_t> scratch(*memory_,
-                                      sort_scratch<std::uint32_t, std::uint32_t>(executor, count, bits));
-        Alternating<std::uint32_t> keys{keys_[0].first(count), keys_[1].first(count)};
-        Alternating<std::uint32_t> values{values_[0].first(count), values_[1].first(count)};
-        radix_sort(executor, keys, values, bits, scratch.all());
-        sorted_keys_ = keys.current;
-        sorted_values_ = values.current;
-    }
-    // To be filled.
-    [[nodiscard]] std::span<std::uint32_t> keys() { return keys_[0].all(); }
-    [[nodiscard]] std::span<std::uint32_t> values() { return values_[0].all(); }
-    // After the sort.
-    [[nodiscard]] std::span<const std::uint32_t> sorted_keys() const { return sorted_keys_; }
-    [[nodiscard]] std::span<const std::uint32_t> sorted_values() const { return sorted_values_; }
-
-private:
-    Memory* memory_;
-    std::array<Buffer<std::uint32_t>, 2> keys_;
-    std::array<Buffer<std::uint32_t>, 2> values_;
-    std::span<const std::uint32_t> sorted_keys_;
-    std::span<const std::uint32_t> sorted_values_;
 };
 
 /// Builds and owns a wide tree.
@@ -75,8 +37,10 @@ public:
         const auto leaves = static_cast<std::uint32_t>(primitives.size());
         // A wide node stands for at least one binary node, and a group for at least one leaf. Mostly
         // there are far fewer, and on a host the memory that stays unused costs nothing.
-        SortedPairs wide(memory, nodes.size());
-        SortedPairs group(memory, leaves);
+        const auto bits = static_cast<int>(std::bit_width(2 * leaves - 1)); // of a number (number_of)
+        SortedPairs<std::uint32_t> wide(memory, executor, static_cast<std::uint32_t>(nodes.size()),
+                                        bits);
+        SortedPairs<std::uint32_t> group(memory, executor, leaves, bits);
         Buffer<std::uint32_t> places(memory, nodes.size());
         Buffer<OpenedNode> opened_nodes(memory, nodes.size());
         Buffer<std::uint32_t> counts(memory, 2);
@@ -95,8 +59,8 @@ public:
             ++levels_;
         }
         const std::uint32_t groups = counts.read(2)[1];
-        wide.sort(executor, wide_nodes, 2 * leaves);
-        group.sort(executor, groups, 2 * leaves);
+        wide.sort(executor, wide_nodes);
+        group.sort(executor, groups);
 
         Buffer<std::uint32_t> ranks(memory, wide_nodes);
         nodes_ = Buffer<WideNode>(memory, wide_nodes);

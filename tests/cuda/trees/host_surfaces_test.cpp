@@ -1,6 +1,7 @@
 // Trees of surfaces built by the threads of the host, with every set of instructions.
 
 #include "cuda/launch/host_kernels.h"
+#include "tests/cuda/trees/narrow_trees.h"
 #include "tests/cuda/trees/same_trees.h"
 #include "tests/ref/trees/boxes.h"
 
@@ -18,23 +19,12 @@ namespace {
 using fast::HostMemory;
 using fast::HostThreads;
 using fast::SurfaceTree;
-using fast::Triangle;
-using fast::Vec3;
-
-std::vector<Triangle> triangles_anywhere(std::size_t count, trees_test::Random& random)
-{
-    std::vector<Triangle> triangles(count);
-    for (Triangle& triangle : triangles) {
-        const Vec3 at(random.in_cube());
-        for (Vec3& vertex : triangle.vertices) vertex = at + 0.1f * Vec3(random.in_cube());
-    }
-    return triangles;
-}
+using fast_trees_test::Narrow;
 
 RC_GTEST_PROP(SurfacesOnHostThreads, AreTheSameWithAllInstructionsAndBuilders, ())
 {
     trees_test::Random random(*rc::gen::arbitrary<std::uint64_t>());
-    const auto triangles = triangles_anywhere(*rc::gen::inRange<std::size_t>(0, 400), random);
+    const auto triangles = Narrow(*rc::gen::inRange<std::size_t>(0, 400), random).triangles;
     HostMemory memory;
     fast::SerialExecutor serial;
     HostThreads threads(2, 1);
@@ -55,7 +45,7 @@ RC_GTEST_PROP(SurfacesOnHostThreads, AreTheSameWithAllInstructionsAndBuilders, (
 TEST(SurfacesOnHostThreads, NameTheFirstPrimitiveThatIsNotLegalWithAllInstructions)
 {
     trees_test::Random random(1);
-    auto triangles = triangles_anywhere(40, random);
+    std::vector<fast::Triangle> triangles = Narrow(40, random).triangles;
     triangles[7].vertices[1].y = std::numeric_limits<float>::quiet_NaN();
     HostMemory memory;
     HostThreads threads(2, 1);

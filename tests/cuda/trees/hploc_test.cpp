@@ -118,8 +118,8 @@ public:
     {
         order_.build(executor_, boxes);
         radix_.build(executor_, order_.codes());
-        clusters_ = clusters_of(boxes.size() == 1 ? fast::leaf_bit : 0);
-        while (clusters_.size() > 1) merge_nearest(clusters_);
+        std::vector<Members> last = clusters_of(boxes.size() == 1 ? fast::leaf_bit : 0);
+        while (last.size() > 1) merge_nearest(last);
     }
     /// The primitives below each node: a list for every node.
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> sets() const { return sets_; }
@@ -167,7 +167,6 @@ private:
     fast::SerialExecutor executor_;
     fast::MortonOrder<std::uint64_t> order_;
     fast::RadixTree radix_;
-    std::vector<Members> clusters_;
     std::vector<std::vector<std::uint32_t>> sets_;
 };
 
